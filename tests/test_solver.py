@@ -90,7 +90,8 @@ def test_a_torque_beyond_friction_does_not_settle(torque):
     """What traction it takes hangs on a solution that there is not: it is told as a guess."""
     returned = solve(replace(NIP, tangential=rn.Torque(torque)))
     assert not returned.converged
-    assert "may be asked for, and friction * load carries" in returned.status
+    assert "the nip may need a traction of about" in returned.status
+    assert "N/mm (friction * load); lower the traction or torque" in returned.status
 
 
 def test_failure_is_returned_or_raised():

@@ -1,7 +1,7 @@
-"""One figure of a result: what every registry of figures is made of.
+"""One figure of a result: the record from which all registries of figures are made.
 
-Units and digits stand here alone. The registries are `rollnip.figures` (the nip, its curves and
-interfaces), `rollnip.sheet_figures`, and `figures` of `rollnip.face`, `rollnip.heat` and
+Units and digits are defined here alone. The registries are `rollnip.figures` (the nip, its curves
+and its interfaces), `rollnip.sheet_figures`, and `figures` of `rollnip.face`, `rollnip.heat` and
 `rollnip.patch`.
 """
 
@@ -64,14 +64,14 @@ Dimension = Literal[
 Section = Literal["nip", "drive", "losses", "sheet"]
 Units = Literal["metric", "us"]
 
-# Newton's method leaves the ends of zones some 1e-9 of the width from where they belong, and not
-# equally far on both sides; a loss of 1e-8 of load times speed is meant.
+# Newton's method leaves the ends of zones off by some 1e-9 of the nip width, and not by the same on
+# both sides; a loss of 1e-8 of load times speed, on the other hand, is a result.
 ROUNDING = 5e-9
 """Share of its size below which a figure is a rounding error.
 
-In free rolling, where torques, traction and friction losses are exactly 0, what is computed is at
-most 4e-13 of their size; the smallest figures that are meant (losses of a viscoelastic cover in
-slow motion) are 1e-8 of it and more.
+In free rolling, torques, traction and friction losses are exactly 0, and the computed values are at
+most 4e-13 of their size. The smallest figures that are results (losses of a viscoelastic covering
+at low speed) are 1e-8 of their size and more.
 """
 
 
@@ -81,7 +81,7 @@ class _Units(NamedTuple):
     factor: float
 
 
-# Base unit, the unit a reader sees, and the factor from the one to the other.
+# Base unit, the unit that a reader sees, and the factor from the base unit to it.
 _UNITS: Mapping[Dimension, _Units] = {
     "length": _Units("mm", "mm", 1.0),
     "line load": _Units("N/mm", "N/mm", 1.0),
@@ -106,25 +106,25 @@ _UNITS: Mapping[Dimension, _Units] = {
     "power per volume": _Units("mW/mm3", "mW/mm³", 1.0),
     "power per area": _Units("mW/mm2", "mW/mm²", 1.0),
     "frequency": _Units("Hz", "Hz", 1.0),
-    "duration": _Units("s", "s", 1.0),  # of tests and records; dwell times are shown in ms
+    "duration": _Units("s", "s", 1.0),  # of tests and records; dwell times ("time") are in ms
     "compliance": _Units("1/MPa", "1/MPa", 1.0),
 }
 
 
 def checked_units(name: str, units: object) -> Units:
-    """Return the units that a reader asked for, or raise InvalidInputError."""
+    """Return the system of units that a reader asked for, or raise InvalidInputError."""
     if units not in get_args(Units):
         raise InvalidInputError(f'`{name}` must be "metric" or "us", got {units!r}.')
     return cast("Units", units)
 
 
 def axis_label(name: str, unit: str) -> str:
-    """Return the label of an axis or a column: a name, and its unit where it has one."""
+    """Return the label of an axis or a column: a name, with its unit in brackets if it has one."""
     return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 class Shown(NamedTuple):
-    """A unit that a reader sees: a number in it is factor times that in the base unit, + offset."""
+    """A unit that a reader sees: value in this unit = value in the base unit * factor + offset."""
 
     unit: str
     factor: float
@@ -140,7 +140,7 @@ US_NAMES: Mapping[InputDimension, str] = {
     "temperature": "degF",
     "turn per length": "1/in",
 }
-"""US customary units of what cases and results both hold, as a case file spells them."""
+"""US customary units of the dimensions that cases and results share, as a case file spells them."""
 
 
 def _us(dimension: InputDimension) -> Shown:
@@ -172,25 +172,25 @@ US: Mapping[Dimension, Shown] = {
     "heat per length": _BY_LENGTH,
     "power per volume": Shown("hp/in³", _INCH**3 / _HORSEPOWER),
 }
-"""The units that a reader of US customary units sees; other dimensions have the metric ones."""
+"""The US customary unit of each dimension; dimensions that are not listed keep the metric one."""
 US_TOTALS: Mapping[str, Shown] = {
     "N": Shown("lbf", 1.0 / _POUND_FORCE),
     "N m": Shown("lbf·in", 1e3 / (_POUND_FORCE * _INCH)),
     "W": Shown("hp", 1e3 / _HORSEPOWER),
 }
-"""The US units of figures of the whole face, by the metric ones."""
+"""The US customary units of figures of the whole face, by their metric ones."""
 LARGE: Mapping[Dimension, tuple[float, Shown]] = {"duration": (180.0, Shown("min", 1.0 / 60.0))}
-"""From which size on (in base units) a dimension is shown in a larger unit, and that unit."""
+"""The size [base unit] from which on a dimension is shown in a larger unit, and that unit."""
 
 
 class FaceTotal(NamedTuple):
-    """The figure of the whole face: value times face width [mm] times ``factor``, in ``unit``."""
+    """The total over the face: value times face width [mm] times ``factor``, in ``unit``."""
 
     unit: str
     factor: float
 
     def in_units(self, units: Units) -> FaceTotal:
-        """Return the same in metric or US units."""
+        """Return the total in metric or US units."""
         if units == "metric":
             return self
         shown = US_TOTALS[self.unit]
@@ -205,18 +205,18 @@ class Figure:
     ----------
     key : its path in the result JSON, such as "dissipation.friction".
     label : its name, in lower case.
-    dimension : what kind of number it is; decides the units.
+    dimension : the kind of quantity, which decides the units.
     sentence : what it is, in one sentence.
-    symbol : as in the theory, in TeX; empty where the theory has none.
+    symbol : its symbol in the theory, in TeX; empty where the theory has none.
     sign : what a positive value means; empty where it is never negative.
     undefined : why it may be null; empty where it never is.
-    section : of summaries.
+    section : the section of summaries in which it stands.
     digits : significant digits that a reader is shown.
-    size : figures whose product, with these powers, is the size it is compared with; the figure
-        is a rounding error below `ROUNDING` times it. Empty: 1.
+    size : figures, with their powers, whose product is the natural size of this one. Below
+        `ROUNDING` times that size the figure is a rounding error. Empty: the size is 1.
     claimed : whether `Solution.error` has an estimate of its error.
     total : how the figure of the whole face follows; None where there is none.
-    units : which ones a reader is shown.
+    units : the system of units that a reader is shown.
     """
 
     key: str
@@ -235,7 +235,7 @@ class Figure:
     units: Units = "metric"
 
     def in_units(self, units: Units) -> Self:
-        """Return the same figure, shown in metric or US units."""
+        """Return the same figure, to be shown in metric or US units."""
         return self if units == self.units else replace(self, units=units)
 
     @property
@@ -247,12 +247,12 @@ class Figure:
 
     @property
     def name(self) -> str:
-        """Attribute of the solution, and key among errors and totals."""
+        """Its name as an attribute of the solution, and as a key among errors and totals."""
         return self.key.replace(".", "_")
 
     @property
     def unit(self) -> str:
-        """Base unit, in files; "1" for a plain number."""
+        """Base unit, used in files; "1" for a plain number."""
         return _UNITS[self.dimension].base
 
     @property
@@ -262,29 +262,29 @@ class Figure:
 
     @property
     def factor(self) -> float:
-        """Factor from the base unit to the unit shown, for differences."""
+        """Factor from the base unit to the unit shown, which holds for differences."""
         return self.shown.factor
 
     def converted(self, value: float) -> float:
-        """Return a value of the base unit in the unit shown."""
+        """Return a value, given in the base unit, in the unit shown."""
         return value * self.shown.factor + self.shown.offset
 
     def value(self, solution: Any) -> float | None:
-        """The figure of a solution, in its base unit; None where not finite or not defined."""
+        """Return the figure of a solution, in its base unit; None where not finite or undefined."""
         return _finite(getattr(solution, self.name))
 
     def values(self, solution: Any) -> list[float | None] | None:
-        """The list of a solution, in its base unit; None where it is not defined."""
+        """Return an array of a solution as a list in the base unit; None where it is undefined."""
         found = getattr(solution, self.name)
         return None if found is None else [_finite(one) for one in found.tolist()]
 
     def cleaned(self, solution: Any) -> float | None:
-        """Return the value of the figure, but 0 where it is a rounding error."""
+        """Return the value of the figure, or 0 where it is a rounding error."""
         value = self.value(solution)
         return value if value is None or abs(value) > self.noise(solution) else 0.0
 
     def noise(self, result: Any) -> float:
-        """Size below which the figure is a rounding error, in its base unit.
+        """Return the size below which the figure is a rounding error, in its base unit.
 
         ``result`` is a solution, or a mapping from keys to values.
         """
@@ -297,22 +297,22 @@ class Figure:
         return level
 
     def error(self, solution: Any) -> float | None:
-        """Estimated error of the figure, in its base unit; None where none is claimed."""
+        """Return the estimated error of the figure in its base unit; None where none is claimed."""
         return _finite(solution.error.get(self.name)) if self.claimed else None
 
     def shown_for(self, largest: float) -> Shown:
-        """Return the unit for values up to ``largest`` [base unit]: minutes for a long time."""
+        """Return the unit for values up to ``largest`` [base unit]; long times are in minutes."""
         least, large = LARGE.get(self.dimension, (inf, None))
         if large is None or abs(largest) < least:
             return self.shown
         return large
 
     def number(self, value: float) -> str:
-        """Write a value of the base unit in the unit shown, without the unit."""
+        """Return a value, given in the base unit, as text in the unit shown, without the unit."""
         return format_quantity(self.converted(value), digits=self.digits)
 
     def text(self, value: float, digits: int | None = None) -> str:
-        """Write a value of the base unit in the unit for its size, with the unit.
+        """Return a value, given in the base unit, as text in the unit that suits its size.
 
         ``digits``: significant digits; None: those of the figure.
         """
@@ -323,16 +323,16 @@ class Figure:
 
     @property
     def axis(self) -> str:
-        """Label of an axis in a picture: the label and the unit shown."""
+        """Label of a plot axis: the label and the unit shown."""
         return self.axis_for(self.label)
 
     def axis_for(self, name: str) -> str:
-        """Return the label of an axis that several curves of this dimension share."""
+        """Return the label of an axis shared by several curves of this dimension."""
         return axis_label(name, self.shown_unit)
 
     @property
     def described(self) -> dict[str, str]:
-        """Attributes of a variable of a data set: units, long_name and comment."""
+        """Attributes of this figure as a variable of a data set: units, long_name and comment."""
         comment = f"{self.sentence} {self.sign}".rstrip()
         return {"units": self.unit, "long_name": self.label, "comment": comment}
 
@@ -340,7 +340,7 @@ class Figure:
 def curve(
     key: str, symbol: str, label: str, dimension: Dimension, sentence: str, sign: str = ""
 ) -> Figure:
-    """Return a curve over x or a field, as the registries list them."""
+    """Return the figure for a curve over x or for a field, as the registries list them."""
     return Figure(key, label, dimension, sentence, symbol=symbol, sign=sign)
 
 
@@ -348,7 +348,7 @@ _AnyFigure = TypeVar("_AnyFigure", bound=Figure)
 
 
 def by_key(*figures: _AnyFigure) -> Mapping[str, _AnyFigure]:
-    """Return figures by their keys, in the order given."""
+    """Return a mapping from keys to figures, in the order given."""
     return {one.key: one for one in figures}
 
 

@@ -1,8 +1,8 @@
 """The registry of figures: what a solution reports, with symbol, unit, label and meaning.
 
-JSON, netCDF, tables, summaries, pictures, the web page and the documentation read it, so that a
-figure is described once. A figure of a result is added here and as an attribute of `Solution`; an
-error claim for it is the word ``claimed=True`` here and a key of `Solution.error`.
+JSON, netCDF, tables, summaries, plots, the web page and the documentation all read it, so that each
+figure is described once. To add a figure, add it here and as an attribute of `Solution`. If its
+error is estimated, set ``claimed=True`` here and add a key to `Solution.error`.
 """
 
 from __future__ import annotations
@@ -224,7 +224,7 @@ FIGURES: Mapping[str, Figure] = by_key(*_SCALARS)
 """The scalar figures of a result by key, in the order of the JSON."""
 
 CLAIMED: Mapping[str, Figure] = {one.name: one for one in _SCALARS if one.claimed}
-"""Those whose error is estimated, by name."""
+"""The scalar figures whose error is estimated, by name."""
 
 PROFILES: Mapping[str, Figure] = by_key(*_CURVES)
 """The distributions over x of a result by key, in the order of the JSON."""
@@ -248,7 +248,7 @@ INTERFACE_FIGURES: Mapping[str, Figure] = by_key(
         "von_mises_max", "largest von Mises stress", "pressure", "Of the layers on either side."
     ),
 )
-"""The figures of an interface or bond, an `InterfaceStress`, by key, in the order of files."""
+"""The figures of an `InterfaceStress` (an interface or a bond), by key, in the order of files."""
 
 PLACES: Mapping[str, Figure] = by_key(
     Figure("face_width", "face width", "length", "Width of the face that totals are for."),
@@ -256,10 +256,10 @@ PLACES: Mapping[str, Figure] = by_key(
     Figure("zone_from", "start of the zone", "length", "Trailing end of a zone of stick or slip."),
     Figure("zone_to", "end of the zone", "length", "Leading end of a zone of stick or slip."),
 )
-"""Where the contact and its zones end, and the width of the face, by key."""
+"""The ends of the contact and of its zones, and the width of the face, by key."""
 
 PULL = Figure("pull", "largest pull", "pressure", "Largest tension across the interface, or 0.")
-"""The pull on an interface: of summaries and pictures; files have the peel stress."""
+"""The tension across an interface, for summaries and plots; files have the peel stress."""
 
 
 _TENSION = "Positive in tension."
@@ -345,7 +345,7 @@ FIELDS: Mapping[str, Figure] = by_key(
         "Heat of linear theory made per depth and per width of the face.",
     ),
 )
-"""The fields inside a roller by key; z points from its surface into its body."""
+"""The fields inside a roller by key; z points from the surface into the body of the roller."""
 
 MEASURED: Mapping[str, Figure] = by_key(
     Figure("frequency", "frequency", "frequency", "Frequency of a dynamic test."),
@@ -363,4 +363,4 @@ MEASURED: Mapping[str, Figure] = by_key(
     Figure("record_time", "time", "time", "Time within a record of velocimetry."),
     Figure("cumulative", "cumulative", "share", "Share of all cases up to a value."),
 )
-"""Quantities of tests and records, which pictures of them show."""
+"""Quantities of material tests and measured records, which plots of them show."""

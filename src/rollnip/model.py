@@ -1,4 +1,4 @@
-"""How a nip is computed: the geometry model and the accuracy wanted."""
+"""The model: how a nip is computed (geometry), and how accurately (tolerance)."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from rollnip._errors import InvalidInputError, require_positive, with_hints
 
 Geometry = Literal["linear", "corrected", "curved", "second", "finite"]
 _SYNONYMS: Mapping[object, Geometry] = {"full": "finite"}
-"""Names that cases of earlier versions hold."""
+"""Names used in cases of earlier versions."""
 FINITE: tuple[Geometry, ...] = ("second", "finite")
-"""Geometries of finite strain: tractions and displacements belong to present places."""
+"""Geometries of finite strain: tractions and displacements refer to the deformed configuration."""
 RINGS: tuple[Geometry, ...] = ("curved", *FINITE)
-"""Geometries that bend the layers to rings."""
+"""Geometries in which layers on rigid cores are rings, not flat strips."""
 SIMPLER: Mapping[Geometry, Geometry] = {"finite": "second", "second": "curved"}
-"""The geometry that is solved where there is no solution of another one."""
+"""The simpler geometry that takes the place of one that has no solution."""
 BEYOND: Mapping[Geometry, str] = {
     "finite": "terms beyond the linear ones",
     "second": "second-order terms",
 }
-"""Words for what geometries of finite strain add to linear elasticity."""
+"""Words for what the geometries of finite strain add to linear elasticity."""
 
 _FINEST = 1e-6
 COARSEST = 0.1
-"""The coarsest tolerance; no figure counts as known whose error is larger."""
+"""The coarsest tolerance: a figure with a larger error does not count as known."""
 
 
 @with_hints(speed="it belongs to the nip: `rn.Nip(..., speed=100)`.")
@@ -36,27 +36,27 @@ class Model:
     Parameters
     ----------
     geometry :
-        "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
-        deformed surfaces. "curved": ring layers and stretch to second order. "second": ring
-        layers at finite strain, to second order throughout. "finite", the default: finite strain
-        of all orders (docs/geometry.md). On half-space cores there is none of all orders: "second"
-        is solved there in place of "finite", and a result says which it is.
-        "full" is another word for "finite".
+        "linear": flat layers and a parabolic gap. "corrected": flat layers and the true distance of
+        the deformed surfaces. "curved": layers as rings, stretch to second order. "second": layers
+        as rings at finite strain, to second order throughout. "finite", the default: finite strain
+        to all orders (docs/geometry.md). It does not cover half-space cores: "second" is solved
+        there in its place, and the result says which geometry it is. "full" is accepted for
+        "finite".
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between
-        1e-6 and 0.1. "finite" gives approach and load to 0.0003, the peak pressure to 0.003, the
-        nip width to 0.001 and the creepage to 0.005, which counts as met by a tolerance of 0.001 or
-        more; a finer one it cannot meet, and the solution says so. Where a surface is stretched far
-        beside a slipping edge it is less accurate, by what the solution's status says. "second"
-        gives approach and load to 0.001, the peak pressure to 0.0015, the nip width to 0.002 and
-        the creepage to 0.01, which counts in the same way. Where the pressure peaks beside the
-        edge of a stiff top layer, nearer than that layer is thick, "finite" gives the peak to 0.02,
-        with friction to 0.07, and "second" to 0.15.
+        1e-6 and 0.1. The error of the model "finite" itself is 0.0003 in approach and load, 0.003
+        in peak pressure, 0.001 in nip width and 0.005 in creepage. It counts as within any
+        tolerance of 0.001 or more; a finer tolerance cannot be met, and the solution says so. Where
+        a surface is stretched far beside a slipping edge the error is larger, and the solution's
+        status says by how much. For "second" the error is 0.001 in approach and load, 0.0015 in
+        peak pressure, 0.002 in nip width and 0.01 in creepage, and counts in the same way. Where
+        the pressure peaks within one layer thickness of the edge of a stiff top layer, the error of
+        the peak pressure is 0.02 for "finite", 0.07 with friction, and 0.15 for "second".
 
     Raises
     ------
     InvalidInputError
-        for another geometry or a tolerance outside its range.
+        for an unknown geometry, or a tolerance outside its range.
     """
 
     geometry: Geometry = "finite"

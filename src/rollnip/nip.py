@@ -1,4 +1,4 @@
-"""The problem: two rollers, what presses them, what drives them, friction and speed."""
+"""The problem: two rollers, their load and drive, friction and speed, perhaps a sheet."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from rollnip._errors import (
 from rollnip.rollers import Roller
 from rollnip.sheets import Sheet
 
-_WIDEST = 1e7  # mm; ten kilometres, as radii
-_LEFT_OUT = float("nan")  # friction that was not given
-_SMALLEST = 1e-15  # mm, N/mm; far below what can be measured, far above what underflows
+_WIDEST = 1e7  # mm; ten kilometres, the limit of radii, too
+_LEFT_OUT = float("nan")  # stands for friction that was not given
+_SMALLEST = 1e-15  # mm or N/mm: far below what can be measured, far above what underflows
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Creepage:
 
 @dataclass(frozen=True, slots=True)
 class Torque:
-    """Prescribed driving torque on the lower axle per length [N]; 0: an idler."""
+    """Prescribed driving torque on the lower axle per axial length [N]; 0: an idler."""
 
     torque_lower: float = 0.0
 
@@ -89,7 +89,7 @@ class Torque:
 )
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Nip:
-    """Two rollers pressed together and rolling steadily.
+    """Two rollers pressed together in steady rolling.
 
     Parameters
     ----------
@@ -98,27 +98,28 @@ class Nip:
     normal :
         LineLoad or Approach.
     friction :
-        Coulomb coefficient mu >= 0; 0 is frictionless. It may be left out where the sheet has its
-        own on both rollers, and is that of the upper one then.
+        Coulomb coefficient mu >= 0; 0 is frictionless. It may be left out where the sheet has a
+        coefficient of its own on both rollers; it is then that on the upper one.
     tangential :
-        Traction, Creepage or Torque; free rolling by default.
+        Traction, Creepage or Torque; free rolling (traction 0) by default.
     speed :
         rolling speed V [mm/s], positive, at most 1e11; needed only where a material is
         viscoelastic.
     face_width :
-        axial length [mm], positive, at most 1e7, for totals; None leaves everything per length.
+        axial length [mm], positive, at most 1e7, for totals; None: all figures are per axial
+        length.
     title :
-        free text, carried into the result; without zero characters.
+        free text, carried into the result; without null characters.
     sheet :
-        what runs between the rollers; None: nothing. The traction is then what the lower roller
-        takes, and the creepage the difference of the rollers' speeds.
+        the sheet that runs between the rollers; None: none. The traction is then the one on the
+        lower roller, and the creepage the relative difference of the rollers' speeds.
 
     Raises
     ------
     InvalidInputError
-        where a value lies outside its range, or the parts do not make a nip: both rollers rigid
-        or flat, speed missing for a viscoelastic material, approach prescribed on a half-space
-        core, traction beyond mu F; a measured profile with friction, viscoelastic materials or a
+        where a value lies outside its range, or the parts do not make a nip: both rollers rigid or
+        flat; no speed for a viscoelastic material; an approach prescribed on a half-space core; a
+        traction beyond mu F; a measured profile with friction, viscoelastic materials or a
         prescribed creepage.
     """
 
@@ -155,7 +156,7 @@ class Nip:
 
     @property
     def is_viscoelastic(self) -> bool:
-        """True where any material of either roller is viscoelastic."""
+        """Whether any material of either roller is viscoelastic."""
         return self.upper.is_viscoelastic or self.lower.is_viscoelastic
 
     def friction_on(self, side: str) -> float:
@@ -165,12 +166,12 @@ class Nip:
 
     @property
     def has_half_space(self) -> bool:
-        """True where a core is a half-space: the approach is then not defined."""
+        """Whether a core is a half-space; the approach is then not defined."""
         return self.upper.core is not None or self.lower.core is not None
 
     @property
     def has_profile(self) -> bool:
-        """True where either roller has a measured profile: a snapshot without friction."""
+        """Whether either roller has a measured profile: the nip is then a frictionless snapshot."""
         return self.upper.profile is not None or self.lower.profile is not None
 
     def _check_types(self) -> None:
@@ -206,7 +207,7 @@ class Nip:
             raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
 
     def _given_friction(self) -> float:
-        """Return the friction of the nip, or of the sheet on the upper roller where left out."""
+        """Return the friction; where it was left out, that of the sheet on the upper roller."""
         if self.friction is not _LEFT_OUT:
             return self.friction
         sheet = self.sheet
@@ -219,7 +220,11 @@ class Nip:
         return sheet.friction_upper
 
     def _check_snapshot(self) -> None:
-        """Roughness that rolls through the nip is not steady; only elastic layers forget it."""
+        """Refuse what does not go with a measured profile.
+
+        Roughness that rolls through the nip is not a steady state. Without friction, elastic layers
+        have no memory of it, so that a snapshot is a solution.
+        """
         if self.friction > 0.0:
             raise InvalidInputError(
                 f"`friction` must be 0 with a measured profile, got {self.friction!r}: roughness "
@@ -343,7 +348,7 @@ def _checked_width(width: float) -> float:
 
 
 def _check_title(title: object) -> None:
-    """Results carry it into files, which hold neither zero characters nor halves of one."""
+    """Refuse titles that result files cannot hold: null characters and unpaired surrogates."""
     if not isinstance(title, str):
         raise InvalidInputError(f"`title` must be a text, got {title!r}.")
     if "\0" in title or any("\ud800" <= letter <= "\udfff" for letter in title):
@@ -353,7 +358,7 @@ def _check_title(title: object) -> None:
 
 
 def require_approach(upper: Roller, lower: Roller, approach: float) -> None:
-    """Raise InvalidInputError where rigid cores, or a roller and an axle, would touch."""
+    """Raise InvalidInputError where rigid cores would touch, or a roller would reach an axle."""
     smallest = min(upper.radius, lower.radius)
     if approach >= smallest:
         raise InvalidInputError(

@@ -1,4 +1,4 @@
-"""The reservation: what a user should know of a result that stands, as a record."""
+"""The reservation: a record of what a user should know about a result that stands."""
 
 from __future__ import annotations
 
@@ -10,19 +10,21 @@ from rollnip.rollers import Side
 
 @dataclass(frozen=True, slots=True)
 class Reservation:
-    """A reservation on a result: its kind, its figures and the sentence that says them.
+    """A reservation on a result: its kind, its numbers and the sentence that states them.
 
     Attributes
     ----------
-    kind : one name for all that say the same of other figures, such as "far_temperature".
+    kind : one name for all reservations that differ only in their numbers, such as
+        "far_temperature".
     sentence :
-        its text for any figures, as `str.format` takes it: ``{where}`` is the place, ``{side}``
-        the roller, the other names are those of ``figures``.
-    figures : what the sentence names: numbers, or words such as the name of a law.
-    side : the roller it is about; None where it is about the nip.
-    material : number of the material from the surface of that roller; None where it is about none.
-    excess : what is over its limit, over that limit; 0 where there is no limit.
-    advice : a sentence on a geometry without this fault; empty where there is none.
+        template of its text for `str.format`: ``{where}`` is the place, ``{side}`` the roller, and
+        the other names are keys of ``figures``.
+    figures : what the template names: numbers, or words such as the name of a law.
+    side : the roller concerned; None where it concerns the whole nip.
+    material : number of the material concerned, counted from the surface of that roller; None where
+        it concerns no single material.
+    excess : the quantity that is over its limit, divided by that limit; 0 where there is no limit.
+    advice : a sentence that recommends a geometry without this fault; empty where there is none.
     """
 
     kind: str
@@ -35,30 +37,30 @@ class Reservation:
 
     @property
     def where(self) -> str:
-        """The roller or the material that the sentence is about, as a sentence begins with it."""
+        """The roller or the material concerned, in the words that begin the sentence."""
         if self.material is None:
             return f"The {self.side} roller"
         return f"Material {self.material} (from the surface) of the {self.side} roller"
 
     @property
     def text(self) -> str:
-        """The sentence with its figures, and the advice."""
+        """The sentence with its numbers filled in, followed by the advice."""
         said = self.sentence.format(**self.figures, where=self.where, side=self.side)
         return f"{said} {self.advice}".rstrip()
 
 
 def texts(reservations: Iterable[Reservation]) -> tuple[str, ...]:
-    """Return the sentences of reservations, as results show them under `warnings`."""
+    """Return the sentences of reservations, as results list them under `warnings`."""
     return tuple(one.text for one in reservations)
 
 
 def instead_of(left: Sequence[tuple[str, str]], geometry: str) -> tuple[Reservation, ...]:
-    """Return reservations that say which geometries had no solution, and which is solved.
+    """Return the reservations that say which geometries had no solution, and which one was solved.
 
     Parameters
     ----------
-    left : geometries without a solution, the first tried first, each with the reason.
-    geometry : the one that is solved.
+    left : the geometries without a solution, in the order tried, each with the reason.
+    geometry : the one that was solved.
     """
     none = 'No solution of geometry "{geometry}" was found: {cause}.'
     solved = ' All figures are those of geometry "{solved}".'
@@ -73,7 +75,7 @@ def instead_of(left: Sequence[tuple[str, str]], geometry: str) -> tuple[Reservat
 
 
 def consistent(reservations: Iterable[Reservation]) -> tuple[Reservation, ...]:
-    """Return reservations without the advice to take a geometry that had no solution."""
+    """Return reservations without the advice to use a geometry that was tried in vain."""
     said = tuple(reservations)
     left = {one.figures["geometry"] for one in said if one.kind == "other_geometry"}
     return tuple(replace(one, advice="") if "finite" in left else one for one in said)

@@ -1,4 +1,4 @@
-"""The result for smooth rollers that touch each other: every figure from the last mesh."""
+"""The result for two smooth rollers that touch each other: every figure from the last mesh."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SmoothSolution(Solution):
-    """A solved nip of smooth rollers, as `Solution` says.
+    """A solved nip of two smooth rollers; see `Solution`.
 
     Attributes
     ----------
@@ -51,20 +51,21 @@ class SmoothSolution(Solution):
 
     @property
     def approach(self) -> float | None:
-        """Approach delta of the axles [mm]; None with a half-space core."""
+        """Approach delta of the axles [mm]; None with a half-space core, where it is infinite."""
         return None if self.nip.has_half_space else self.final.state.approach
 
     @property
     def creepage(self) -> float | None:
-        """Creepage xi = (V_u - V_l)/V; None where it is free (no friction)."""
+        """Creepage xi = (V_u - V_l)/V; None without friction, unless it was prescribed."""
         creepage = self.final.state.creepage
         return None if isnan(creepage) else creepage
 
     @property
     def traction(self) -> float:
-        """Traction T [N/mm]: int q dx, "curved" and "corrected": per undeformed arc, mean of both.
+        """Traction T = int q dx [N/mm]; T > 0: the upper roller drives the lower one.
 
-        T > 0: the upper roller drives the lower one.
+        In the geometries "curved" and "corrected" q is taken per undeformed arc, as the mean of
+        both rollers.
         """
         return float(self.final.problem.weights @ self.final.state.shear)
 
@@ -85,7 +86,7 @@ class SmoothSolution(Solution):
 
     @property
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]; the leading one of peaks that are equally high."""
+        """Place of the highest pressure [mm]; of several equally high peaks, the leading one."""
         return peak_pressure(self.final.x, self.final.pressure)[1]
 
     @cached_property
@@ -93,7 +94,7 @@ class SmoothSolution(Solution):
         """Stick and slip zones from trailing to leading edge; empty without friction."""
         if self.nip.friction == 0.0:
             return ()
-        # q = -mu p sign(slip velocity): shear to the plus side resists slip to the minus side.
+        # q = -mu p sign(slip velocity): shear along +x resists slip of the upper surface along -x.
         kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
             State.STICK: ("stick", None),
             State.SLIP_PLUS: ("slip", -1),
@@ -108,7 +109,7 @@ class SmoothSolution(Solution):
 
     @cached_property
     def profiles(self) -> Profiles:
-        """Distributions in and outside the nip."""
+        """Pressure, shear, gap, slip velocity, strains and speeds, in the nip and beside it."""
         x = fine_points(self.final)
         fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
         strains = [
@@ -133,9 +134,9 @@ class SmoothSolution(Solution):
 
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both surfaces in and outside the nip, with the gap of the geometry model.
+        """Heights of both surfaces in the nip and beside it, with the gap of the geometry model.
 
-        Half-space cores have no finite approach: heights are then relative to a displacement
+        With a half-space core the approach is infinite; heights are then relative to a displacement
         that is left out.
         """
         x = fine_points(self.final)
@@ -145,27 +146,29 @@ class SmoothSolution(Solution):
 
     @property
     def nodes(self) -> Array:
-        """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
+        """Nodes of the mesh that carry tractions, from trailing to leading edge, (n,) [mm]."""
         return sealed(self.final.x)
 
     @property
     def pressure(self) -> Array:
-        """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
+        """Pressure at the nodes, linear between them, (n,) [MPa]; it integrates to the load.
 
-        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
+        The mean over each element is right, so that a nodal value may exceed ``peak_pressure`` by a
+        few 1e-4 of it.
         """
         return sealed(self.final.pressure)
 
     @property
     def shear(self) -> Array:
-        """Shear on the upper roller along +x as it acts, linear between the nodes, (n,) [MPa].
+        """Shear stress on the upper roller along +x, linear between the nodes, (n,) [MPa].
 
-        In stick next to a transition it is within friction times pressure to the tolerance only.
+        At nodes in stick beside a transition to slip it may exceed friction times pressure, within
+        the tolerance.
         """
         return sealed(self.final.shear)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        """Return the tractions on one surface in its own frame: upper (q, p), lower (-q, p)."""
         shear = self.shear if roller == "upper" else -self.shear
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 

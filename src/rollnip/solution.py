@@ -40,18 +40,21 @@ Array = NDArray[np.float64]
 class Solution(Presented, ABC):
     """A solved nip. Units mm, N, MPa, s; x points to the leading edge (the inlet).
 
-    What holds for every nip. `solve` returns a `rollnip.smooth.SmoothSolution`, with a sheet a
-    `rollnip.sheet.SheetSolution`, with a measured profile a `rollnip.rough.RoughSolution`.
+    This class holds what every solution has. `solve` returns a `rollnip.smooth.SmoothSolution`;
+    with a sheet in the nip, a `rollnip.sheet.SheetSolution`; with a measured profile, a
+    `rollnip.rough.RoughSolution`.
 
     Attributes
     ----------
-    nip, model : the problem.
-    converged : whether the fresh check and the error estimates meet the tolerance.
+    nip, model : the problem that was solved, and the model (geometry and tolerance) used.
+    converged : whether the contact conditions, checked again at more points, and the estimated
+        errors are within the tolerance.
     status : a sentence that says so, or what is wrong and what helps.
-    reservations : what the user should know of it, each a record; `warnings` has their sentences.
-    solver : how it was reached.
-    max_surface_strain : of either surface in the contact, mean over an element; None where it was
-        not looked for.
+    reservations : records of what the user should know about the result; `warnings` has their
+        sentences.
+    solver : size of the mesh, iterations, residual and time.
+    max_surface_strain : largest strain of either surface in the contact, each a mean over one
+        element; None where it was not computed.
     """
 
     nip: Nip
@@ -64,12 +67,12 @@ class Solution(Presented, ABC):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """The sentences of the reservations."""
+        """The sentences of `reservations`."""
         return texts(self.reservations)
 
     @property
     def sheet(self) -> Any:
-        """Results for the sheet, a `rollnip.sheet.SheetResult`; None without one."""
+        """Results for the sheet in the nip, a `rollnip.sheet.SheetResult`; None without a sheet."""
         return None
 
     @property
@@ -80,24 +83,25 @@ class Solution(Presented, ABC):
     @property
     @abstractmethod
     def approach(self) -> float | None:
-        """Approach delta of the axles [mm]; None with a half-space core."""
+        """Approach delta of the axles [mm]; None with a half-space core, where it is infinite."""
 
     @property
     @abstractmethod
     def creepage(self) -> float | None:
-        """Creepage xi = (V_u - V_l)/V; None where it is free (no friction)."""
+        """Creepage xi = (V_u - V_l)/V; None without friction, unless it was prescribed."""
 
     @property
     @abstractmethod
     def traction(self) -> float:
-        """Traction T [N/mm]: int q dx, "curved" and "corrected": per undeformed arc, mean of both.
+        """Traction T = int q dx [N/mm]; T > 0: the upper roller drives the lower one.
 
-        T > 0: the upper roller drives the lower one.
+        In the geometries "curved" and "corrected" q is taken per undeformed arc, as the mean of
+        both rollers.
         """
 
     @property
     def speed_ratio(self) -> float | None:
-        """V_u/V_l; None where the creepage is free."""
+        """V_u/V_l; None where the creepage is."""
         xi = self.creepage
         return None if xi is None else (1.0 + 0.5 * xi) / (1.0 - 0.5 * xi)
 
@@ -124,17 +128,17 @@ class Solution(Presented, ABC):
     @property
     @abstractmethod
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]; the leading one of peaks that are equally high."""
+        """Place of the highest pressure [mm]; of several equally high peaks, the leading one."""
 
     @property
     def peaks_alike_x(self) -> tuple[float, ...]:
-        """Places of the other peaks that agree with the highest to four digits [mm]."""
+        """Places of further peaks that are as high as the highest to four digits [mm]."""
         x, p = self.nodes, self.pressure
         return tuple(peak_at(x, p, i)[1] for i in peaks_alike(p)[:-1])
 
     @property
     def mean_pressure(self) -> float:
-        """Load over contacted length [MPa]."""
+        """Line load over the total length of the contact intervals [MPa]."""
         return self.load / sum(leading - trailing for trailing, leading in self.contact)
 
     @property
@@ -144,40 +148,40 @@ class Solution(Presented, ABC):
 
     @property
     def torque_upper(self) -> float | None:
-        """Driving torque on the upper axle per length [N]; None for a plane."""
+        """Driving torque on the upper axle per axial length [N]; None for a plane."""
         radius = self.nip.upper.radius
         return None if isinf(radius) else radius * self._powers.driving_upper
 
     @property
     def torque_lower(self) -> float | None:
-        """Driving torque on the lower axle per length [N]; None for a plane."""
+        """Driving torque on the lower axle per axial length [N]; None for a plane."""
         radius = self.nip.lower.radius
         return None if isinf(radius) else radius * self._powers.driving_lower
 
     @property
     def dissipation_friction(self) -> float | None:
-        """-Int q s ds over the zones that slip [N/s = mW/mm]; None without speed."""
+        """Power lost by slip, -int q s dx over the slip zones [N/s = mW/mm]; None without speed."""
         return None if self.nip.speed is None else self.nip.speed * self._powers.friction
 
     @property
     def dissipation_viscous(self) -> float | None:
-        """Power lost inside the layers [N/s]; 0 for elastic ones, None without speed.
+        """Power lost inside the layers [N/s = mW/mm]; 0 for elastic layers, None without speed.
 
-        From the loss part of their compliance: never negative.
+        It is computed from the loss part of their compliance, and so is never negative.
         """
         return None if self.nip.speed is None else self.nip.speed * self._lost_inside
 
     @property
     def rolling_resistance(self) -> float:
-        """Viscous dissipation/(F V)."""
+        """Viscous dissipation over line load times speed, D/(F V)."""
         return self._lost_inside / self.load
 
     @property
     def power_in(self) -> float | None:
-        """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
+        """Power supplied by both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
 
-        "linear" and "corrected" leave out products of creepage and strain: there only the part
-        T R of a torque counts with the speed of its own roller, the rest with V.
+        The geometries "linear" and "corrected" leave out products of creepage and strain. There
+        only the part T R of a torque is multiplied by the speed of its own roller, the rest by V.
         """
         if self.nip.speed is None:
             return None
@@ -189,11 +193,12 @@ class Solution(Presented, ABC):
 
     @property
     def error(self) -> dict[str, float]:
-        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
+        """Estimated absolute errors, each in the unit of its figure; nan where it is undefined.
 
-        What the mesh leaves; in "second" at least what its second order leaves open. `converged`
-        and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
-        what it misses the prescribed value by.
+        They are what the mesh leaves, and in geometry "second" at least what the second order
+        leaves out. `converged` and `status` follow from the errors of those figures that
+        `Model.tolerance` is for. The error of a prescribed figure is its distance from the
+        prescribed value.
         """
         return dict(self._claims)
 
@@ -204,41 +209,43 @@ class Solution(Presented, ABC):
 
     @abstractmethod
     def _claimed_errors(self) -> dict[str, float]:
-        """Return what `error` is."""
+        """Return the mapping for `error`."""
 
     @property
     @abstractmethod
     def profiles(self) -> Profiles:
-        """Distributions in and outside the nip."""
+        """Pressure, shear, gap, slip velocity, strains and speeds, in the nip and beside it."""
 
     @property
     @abstractmethod
     def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both surfaces in and outside the nip, with the gap of the geometry model.
+        """Heights of both surfaces in the nip and beside it, with the gap of the geometry model.
 
-        Half-space cores have no finite approach: heights are then relative to a displacement
+        With a half-space core the approach is infinite; heights are then relative to a displacement
         that is left out.
         """
 
     @property
     @abstractmethod
     def nodes(self) -> Array:
-        """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
+        """Nodes of the mesh that carry tractions, from trailing to leading edge, (n,) [mm]."""
 
     @property
     @abstractmethod
     def pressure(self) -> Array:
-        """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
+        """Pressure at the nodes, linear between them, (n,) [MPa]; it integrates to the load.
 
-        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
+        The mean over each element is right, so that a nodal value may exceed ``peak_pressure`` by a
+        few 1e-4 of it.
         """
 
     @property
     @abstractmethod
     def shear(self) -> Array:
-        """Shear on the upper roller along +x as it acts, linear between the nodes, (n,) [MPa].
+        """Shear stress on the upper roller along +x, linear between the nodes, (n,) [MPa].
 
-        In stick next to a transition it is within friction times pressure to the tolerance only.
+        At nodes in stick beside a transition to slip it may exceed friction times pressure, within
+        the tolerance.
         """
 
     @one_blas_thread()
@@ -250,27 +257,31 @@ class Solution(Presented, ABC):
         *,
         side: Literal["above", "below"] = "above",
     ) -> InteriorField:
-        """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
+        """Return displacements, stresses and strains inside a roller, in its own frame.
 
-        Of finite strain in geometry "finite", inside layers on rigid cores; else linear.
+        The fields are those of finite strain in geometry "finite" inside layers on rigid cores, and
+        those of linear theory otherwise.
 
         Parameters
         ----------
-        z : (nz,) or scalar depths [mm], 0 at the surface; on a half-space core to any depth.
+        roller : "upper" or "lower".
+        z : (nz,) or scalar depths [mm], 0 at the surface; any depth on a half-space core.
         x :
-            (nx,) or scalar places [mm], to half a turn of the smaller roller; None: 401, to one
-            nip width outside the contact.
-        side : the layer a depth on an interface belongs to: the one "above" it or "below" it.
+            (nx,) or scalar places [mm], up to half a turn of the smaller roller to either side;
+            None: 401 places up to one nip width outside the contact.
+        side : the layer that a depth on an interface belongs to: the one "above" or the one "below"
+            it.
 
         Returns
         -------
-        InteriorField; arrays of shape (nz, nx), compressive stress negative [MPa], mm.
+        InteriorField; arrays of shape (nz, nx), stresses [MPa] negative in compression,
+        displacements in mm.
 
         Raises
         ------
         InvalidInputError
-            where the roller is unknown or a bare rigid core, a depth lies outside its layers, a
-            place outside the window, a value is not finite or none is given.
+            where the roller is unknown or a bare rigid core, a depth lies outside the layers, a
+            place lies beyond half a turn, a value is not finite, or an array is empty.
         """
         if roller not in ("upper", "lower"):
             raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')
@@ -288,7 +299,7 @@ class Solution(Presented, ABC):
 
     @one_blas_thread()
     def heat_below(self, roller: Side, z: ArrayLike) -> Array | None:
-        """Return the power lost inside a roller below some depths; None without speed.
+        """Return the power lost inside a roller below given depths; None without speed.
 
         Parameters
         ----------
@@ -297,9 +308,9 @@ class Solution(Presented, ABC):
 
         Returns
         -------
-        (nz,) powers [N/s = mW/mm]; at depth 0 all that the roller loses, 0 for an elastic one.
-        Both rollers together at depth 0 are ``dissipation_viscous``. In geometry "finite" that is
-        the loss of finite strain, spread over the depth as in linear theory.
+        (nz,) powers [N/s = mW/mm]. At depth 0 it is all that the roller loses (0 for an elastic
+        one); the sum for both rollers is then ``dissipation_viscous``. In geometry "finite" it is
+        the loss at finite strain, distributed over the depth as in linear theory.
         """
         if self.nip.speed is None:
             return None
@@ -315,7 +326,7 @@ class Solution(Presented, ABC):
     @cached_property
     @one_blas_thread()
     def interfaces(self) -> tuple[InterfaceStress, ...]:
-        """Stresses on every interface and bond of the upper, then of the lower roller."""
+        """Stresses on every interface of layers and every bond to a core, upper roller first."""
         x = np.union1d(self._section, self.nodes)
         model = (self.model.geometry, self.nip.speed)
         found: tuple[InterfaceStress, ...] = ()
@@ -325,11 +336,11 @@ class Solution(Presented, ABC):
         return found
 
     def is_finite_inside(self, roller: Side) -> bool:
-        """Return whether `interior` gives fields of finite strain there, or of linear theory."""
+        """Return whether the fields of `interior` are of finite strain, not of linear theory."""
         return self._beyond(roller) is not None
 
     def _beyond(self, roller: str) -> FiniteFields | None:
-        """Return what finite strain adds to the linear fields inside; None: nothing."""
+        """Return what finite strain adds to the linear fields inside a roller; None if nothing."""
         if roller not in self._found_inside:
             upper, speed = roller == "upper", self.nip.speed
             one, rate = (self.nip.upper if upper else self.nip.lower), self._rates[not upper]
@@ -343,18 +354,18 @@ class Solution(Presented, ABC):
 
     @property
     def _heat_beyond(self) -> tuple[float, float]:
-        """Heat over V of the upper and the lower roller beyond linear theory [N/mm]."""
+        """What finite strain adds to the heat of the upper and lower roller, over V [N/mm]."""
         return 0.0, 0.0
 
     @property
     def _section(self) -> Array:
-        """Places to one nip width outside the contact, (401,) [mm]."""
+        """401 places, up to one nip width beyond either edge of the contact [mm]."""
         trailing, leading = self.contact[0][0], self.contact[-1][1]
         return np.linspace(trailing - self.nip_width, leading + self.nip_width, 401)
 
     @abstractmethod
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        """Return the tractions on one surface in its own frame: upper (q, p), lower (-q, p)."""
 
     @property
     def _roller_speeds(self) -> tuple[float, float] | None:
@@ -367,7 +378,7 @@ class Solution(Presented, ABC):
     @property
     @abstractmethod
     def _powers(self) -> Powers:
-        """Powers of the contact."""
+        """Torques and losses of the contact, over V."""
 
     @property
     def _rates(self) -> tuple[float, float]:
@@ -375,6 +386,6 @@ class Solution(Presented, ABC):
 
     @property
     def _lost_inside(self) -> float:
-        """Viscous loss over V [N/mm]."""
+        """Viscous loss of both rollers over V [N/mm]."""
         rates, lost = self._rates, self._powers
         return rates[0] * lost.lost_upper + rates[1] * lost.lost_lower

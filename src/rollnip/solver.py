@@ -1,8 +1,15 @@
-"""The flow of one solution, as in section 3 of Braat & Kalker 1993.
+"""Solve the rolling contact of two rollers, in the order of section 3 of Braat & Kalker (1993).
 
-Influence functions from the layers by an inverse Fourier transform; contact stresses, approach
-and creepage by the contact algorithm; repeated on better meshes, with the geometry corrected,
-until the results settle; and a check of the conditions at more points.
+1. Influence functions: the response of each covering to a traction on its surface, from its layers
+   by an inverse Fourier transform (`rollnip.influence`).
+2. Contact algorithm: contact, stick and slip, with pressure, shear, approach and creepage; the
+   paper's NORM and TANG in one (`rollnip.contact`).
+3. Geometry correction: the gap and the stretch of the deformed surfaces change the problem, so that
+   steps 2 and 3 alternate, on finer and finer meshes, until the figures settle (`rollnip.rolling`).
+4. Check: the contact conditions are evaluated again at more points, and the estimated errors are
+   compared with the tolerance (`rollnip.verdict`).
+5. Result: a `Solution`, with reservations where the model is used beyond the range in which it was
+   compared with finite elements (`rollnip.validity`).
 """
 
 from __future__ import annotations
@@ -39,15 +46,18 @@ from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import StrainSizes, second_share, validity_reservations
 from rollnip.verdict import ACCEPT_IT, verdict, violated
 
-_CLEARLY = 1.5  # times a limit that is known roughly
-_THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
+# A traction above this multiple of a limit exceeds it even where the limit is known only roughly.
+_CLEARLY = 1.5
+# Thickness of a covering over half the nip width, below which the elements cannot follow the
+# pressure on a hardly compressible one.
+_THIN = 0.025
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
-# As `rollnip.volume` has it.
+_DIVERGED = 0.1  # last relative change of second-order terms from which they count as diverged
+# The advice that `rollnip.volume` gives, too.
 _VOLUME = (
     " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
     "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
 )
-_DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
 
 def solve(
@@ -63,32 +73,33 @@ def solve(
     Parameters
     ----------
     nip :
-        the problem.
+        the problem: rollers, load or approach, traction or creepage, friction, speed.
     model :
-        geometry and accuracy; ``Model()`` by default.
+        geometry model and accuracy; ``Model()`` by default.
     cache :
-        influence functions of solves before, to be used again where coverings are the same.
+        influence functions of earlier solves; those of the same coverings are used again.
     near :
-        the solution of a nip much like this one, from which to start in geometry "finite"; of other
-        kinds it does not count. In small steps it saves a quarter to a third of the finite
-        elements where all layers are elastic, hardly any else; figures differ by less than both
+        the solution of a similar nip, from which the iteration in geometry "finite" starts; a
+        solution of another geometry is ignored. Where parameters change in small steps it saves a
+        quarter to a third of the finite-element work if all layers are elastic, and hardly any
+        otherwise. The figures differ from those without it by less than the errors that both
         solutions claim together.
     on_failure :
         "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
 
     Returns
     -------
-    Solution; ``converged`` is set by a fresh check of the contact conditions on more points than
-    were solved on, and by the estimated errors.
+    Solution; ``converged`` is True where the contact conditions, evaluated again at more points
+    than they were solved at, and the estimated errors are within the tolerance.
 
     Raises
     ------
     InvalidInputError
-        where the problem has no solution: a traction beyond friction times load, a nip as wide
-        as a roller; and where an argument is of another kind.
+        where the problem has no solution (a traction beyond friction times load, a nip as wide
+        as a roller), or an argument has the wrong type.
     ConvergenceError
-        where ``on_failure`` is "raise" and the solution could not be verified, or where there
-        is none at all.
+        where ``on_failure`` is "raise" and the solution could not be verified, or where no
+        contact was found at all.
     """
     start = perf_counter()
     model = Model() if model is None else model
@@ -96,18 +107,19 @@ def solve(
     if near is not None:
         require_instance("near", near, Solution, "; give that of a nip much like this one")
     if nip.has_profile:
-        from rollnip.rough import solve_rough  # few nips need it; loading it takes time
+        from rollnip.rough import solve_rough  # slow to import, and few nips need it
 
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     cache = KernelCache() if cache is None else cache
     require_instance("cache", cache, KernelCache)
-    # Second-order terms that diverge may overflow; a solution that is not finite is not verified.
+    # Diverging second-order terms may overflow. No wrong result follows from it: a solution that is
+    # not finite does not pass the check.
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore"):
         solution: Solution
         if nip.sheet is None:
-            solution = _solved(nip, model, cache, near, start)
+            solution = _solve_smooth(nip, model, cache, near, start)
         else:
-            from rollnip.sheet import solve_sheet  # a slow import, too
+            from rollnip.sheet import solve_sheet  # slow to import, too
 
             model = replace(model, geometry=geometry_for(nip, model))
             solution = solve_sheet(nip, model, cache, _version())
@@ -116,21 +128,8 @@ def solve(
     return solution
 
 
-def geometry_for(nip: Nip, model: Model) -> Geometry:
-    """Return the geometry that a nip is solved in where a model asks for one.
-
-    On half-space cores "finite" is of second order, a measured profile is solved with linear
-    elasticity; elsewhere it is the one asked for.
-    """
-    if nip.has_profile and model.geometry in FINITE:
-        return "curved"
-    if model.geometry == "finite" and nip.has_half_space:
-        return "second"
-    return model.geometry
-
-
 def _require_kinds(nip: object, model: object, on_failure: object) -> None:
-    """Raise InvalidInputError for arguments of another kind, such as a case instead of its nip."""
+    """Raise InvalidInputError for arguments of the wrong type, such as a case for its nip."""
     hint = "; of a case take `case.nip`" if hasattr(nip, "nip") else ""
     require_instance("nip", nip, Nip, hint)
     if isinstance(model, str):
@@ -142,24 +141,39 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
         raise InvalidInputError(f'`on_failure` must be "raise" or "return", got {on_failure!r}.')
 
 
-def _solved(
+def geometry_for(nip: Nip, model: Model) -> Geometry:
+    """Return the geometry in which a nip is solved, given the one that the model asks for.
+
+    On half-space cores "second" takes the place of "finite", and a measured profile is solved with
+    linear elasticity, "curved", in place of both geometries of finite strain. Otherwise it is the
+    geometry asked for.
+    """
+    if nip.has_profile and model.geometry in FINITE:
+        return "curved"
+    if model.geometry == "finite" and nip.has_half_space:
+        return "second"
+    return model.geometry
+
+
+def _solve_smooth(
     nip: Nip, model: Model, cache: KernelCache, near: Solution | None, start: float
 ) -> Solution:
-    """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
+    """Return the solution for smooth rollers that touch each other, with no sheet between them.
+
+    ``start`` is the clock at the call of `solve`, from which the solver time counts [s].
+    """
     model = replace(model, geometry=geometry_for(nip, model))
-    kernels, final = _refined(nip, model, cache, near)
-    left: list[tuple[Geometry, str]] = []
-    while model.geometry in FINITE and (cause := _without_solution(nip, model, final)):
-        left.append((model.geometry, cause))
+    kernels, final = _influence_and_contact(nip, model, cache, near)
+    given_up: list[tuple[Geometry, str]] = []
+    while model.geometry in FINITE and (cause := _why_no_solution(nip, model, final)):
+        given_up.append((model.geometry, cause))
         is_deep = final.ended is not None and final.ended.cause == "depth"
         model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
-        kernels, final = _refined(nip, model, cache, None)
+        kernels, final = _influence_and_contact(nip, model, cache, None)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
-    converged, status = _verdict(nip, model, final)
-    if not converged:
-        status += _too_thin(nip, final) + _too_slippery(nip, model)
+    converged, status = _check(nip, model, final)
     strains = StrainSizes.of(nip, model, final)
     return SmoothSolution(
         nip=nip,
@@ -167,7 +181,7 @@ def _solved(
         converged=converged,
         status=status,
         reservations=consistent(
-            instead_of(left, model.geometry) + validity_reservations(nip, model, final, strains)
+            instead_of(given_up, model.geometry) + validity_reservations(nip, model, final, strains)
         ),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
@@ -183,11 +197,35 @@ def _solved(
     )
 
 
-def _without_solution(nip: Nip, model: Model, final: Round) -> str:
-    """Return why the iteration for finite strain has no solution; "" if it has one.
+def _influence_and_contact(
+    nip: Nip, model: Model, cache: KernelCache, near: Solution | None
+) -> tuple[PairKernels, Round]:
+    """Return the influence functions of both rollers, and the contact on the last mesh."""
+    # Influence functions; those of second order are tabulated for a contact of the guessed width.
+    kernels = pair_kernels(nip, model.geometry, cache)
+    half_width = half_width_guess(nip, kernels)
+    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
+    # Contact algorithm and geometry correction in turn, on finer and finer meshes.
+    too_deep = partial(is_too_deep, nip, model.geometry)
+    if model.geometry == "finite":
+        begin = _as_start(near)
+        return refine_all_orders(nip, model, kernels, half_width, cache, too_deep, begin)
+    return kernels, refine(nip, model, kernels, half_width, is_too_deep=too_deep)
 
-    A solution that misses the tolerance counts as one: the model never depends on an error
-    estimate. Second-order terms that are larger than the approach are no expansion.
+
+def _as_start(near: Solution | None) -> Nearby | None:
+    """Return a solution as a start for a similar nip; None where it cannot serve as one."""
+    if not isinstance(near, SmoothSolution) or not near.converged:
+        return None
+    return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
+
+
+def _why_no_solution(nip: Nip, model: Model, final: Round) -> str:
+    """Return why a geometry of finite strain has no solution; "" if it has one.
+
+    A solution that misses the tolerance counts as one, so that the choice of the geometry never
+    depends on an error estimate. Second-order terms that exceed the approach do not: there the
+    expansion in orders has no meaning.
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
@@ -204,7 +242,7 @@ def _without_solution(nip: Nip, model: Model, final: Round) -> str:
 
 
 def _how_far(ended: Ended) -> str:
-    """Return why contact and correction found no solution, and how far their iteration got."""
+    """Return why the iteration of contact and correction found no solution, and how far it got."""
     done, change = ended.iterations, f"{ended.change:.2g}"
     if ended.cause == "depth":
         return "without finite strain a layer is pressed in by its whole thickness or more"
@@ -228,37 +266,17 @@ def _how_far(ended: Ended) -> str:
     )
 
 
-def _refined(
-    nip: Nip, model: Model, cache: KernelCache, near: Solution | None
-) -> tuple[PairKernels, Round]:
-    """Return the influence functions and the last round of refinement."""
-    kernels = pair_kernels(nip, model.geometry, cache)
-    half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    deep = partial(is_too_deep, nip, model.geometry)
-    if model.geometry == "finite":
-        return refine_all_orders(nip, model, kernels, half_width, cache, deep, _nearby(near))
-    return kernels, refine(nip, model, kernels, half_width, is_too_deep=deep)
-
-
-def _nearby(near: Solution | None) -> Nearby | None:
-    """Return a solution as a start for others; None where it is not one of that kind."""
-    if not isinstance(near, SmoothSolution) or not near.converged:
-        return None
-    return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
-
-
 def _require_grip(nip: Nip, final: Round) -> None:
-    """Raise where the wanted traction is more than friction can carry: the nip would spin."""
+    """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
         return
     if isinstance(nip.tangential, Torque) and not final.settled:
-        return  # the traction that it takes is rough; `_verdict` says what it may be
+        return  # the traction that it takes is known only roughly; `_check` says how large it is
     limit = nip.friction * final.figures.load
     given = isinstance(nip.normal, LineLoad)
     if not given and not final.settled and abs(wanted) < _CLEARLY * limit:
-        return  # the load is rough
+        return  # the load, and so the limit, is known only roughly
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
         f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "
@@ -266,27 +284,32 @@ def _require_grip(nip: Nip, final: Round) -> None:
     )
 
 
-def _may_spin(nip: Nip, final: Round) -> bool:
-    """Return whether an unsettled round takes at least the traction that friction can carry."""
-    wanted = final.problem.control.traction
-    load = final.figures.load
-    return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
+def _check(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+    """Return whether the solution is verified, and the status sentence that says so or what helps.
+
+    The conditions are checked in the order in which one makes the next meaningful: iterations
+    settled, result possible, ends of zones found, contact conditions met, errors small enough.
+    """
+    is_verified, status = _first_failure(nip, model, final)
+    if not is_verified:
+        status += _too_thin(nip, final) + _too_slippery(nip, model)
+    return is_verified, status
 
 
-def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
-    """Return whether the solution is valid, and a sentence that says so or what to do."""
+def _first_failure(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+    """Return `_check` without what it adds on very thin coverings and very small friction."""
     if not final.settled and _may_spin(nip, final):
         return False, (
-            "Contact, stick and slip did not settle: a traction of about "
-            f"{final.problem.control.traction:.4g} N/mm may be asked for, and friction * load "
-            f"carries {nip.friction * final.figures.load:.4g} N/mm; lower it, or raise the load "
-            "or the friction."
+            "Contact, stick and slip did not settle: the nip may need a traction of about "
+            f"{final.problem.control.traction:.4g} N/mm, but friction carries at most "
+            f"{nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the traction "
+            "or torque, or raise the load or the friction."
         )
     if not final.settled:
         what = "Contact, stick and slip did not settle"
         if final.geometry_change > 0.1 * model.tolerance:
             name = "The geometry correction"
-            if model.geometry == "linear":  # it has none; what follows the solution is a torque's
+            if model.geometry == "linear":  # uncorrected; a torque's traction is iterated
                 name = "The traction that gives `torque_lower`"
             what = f"{name} did not converge (last change {final.geometry_change:.1e})"
         simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
@@ -295,7 +318,7 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
         return False, reason
     if not final.is_placed:
         return False, (
-            "Which nodes touch, stick and slip was found, but not where their zones end; try "
+            "The contact, stick and slip zones were found, but not exactly where they end; try "
             "another load or tolerance."
         )
     left = final.residual
@@ -315,8 +338,15 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
+def _may_spin(nip: Nip, final: Round) -> bool:
+    """Return whether a round that has not settled needs as much traction as friction can carry."""
+    wanted = final.problem.control.traction
+    load = final.figures.load
+    return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
+
+
 def _too_thin(nip: Nip, final: Round) -> str:
-    """Return a sentence on a covering that is too thin and incompressible for the elements."""
+    """Return a sentence on a covering too thin and too incompressible for the mesh; "" if none."""
     half = 0.5 * final.figures.nip_width
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
@@ -333,7 +363,10 @@ def _too_thin(nip: Nip, final: Round) -> str:
 
 
 def _too_slippery(nip: Nip, model: Model) -> str:
-    """Return a sentence on friction within the tolerance: zones of stick are as short as it is."""
+    """Return a sentence on friction smaller than the tolerance; "" where it is larger.
+
+    The zones of stick are then about as short, relative to the nip width, as the friction is small.
+    """
     if not 0.0 < nip.friction <= model.tolerance:
         return ""
     return (
@@ -342,8 +375,9 @@ def _too_slippery(nip: Nip, model: Model) -> str:
     )
 
 
-@cache  # reading it from the installed files takes as long as solving on a mesh
+@cache  # reading it from the installed files takes as long as solving on one mesh
 def _version() -> str:
+    """Return the version of the installed package."""
     try:
         return version("rollnip")
     except PackageNotFoundError:  # run from a source tree that was never installed

@@ -1,7 +1,7 @@
-"""A fixed list of reservations where the model is used outside the range it was judged in.
+"""Reservations where a model is used outside the range in which it was compared.
 
-The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
-list with its reasons is in docs/validity.md. A reservation never changes a result.
+The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md). The
+list, with its reasons, is in docs/validity.md. A reservation never changes a result.
 """
 
 from __future__ import annotations
@@ -23,29 +23,33 @@ from rollnip.rolling import Round, surface_strain_in_nip
 from rollnip.volume import volume_reservations
 
 NIP_STRAIN = 0.15
-"""Approach over the thickness of the coverings."""
+"""Approach over the total thickness of the coverings."""
 THICKNESS_RATIO = 0.15
-"""Thickness of a covering over the radius of its roller, but at finite strain."""
+"""Thickness of a covering over the radius of its roller, in all geometries but those of finite
+strain.
+"""
 THICKNESS_RATIO_FINITE = 0.4
-"""The same at finite strain."""
+"""The same in the geometries of finite strain."""
 SURFACE_STRAIN = 0.3
-"""Strain of a surface in the nip, mean over an element."""
+"""Strain of a surface in the nip, as a mean over one element."""
 CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
 SECOND_SHARE = 0.15
-"""Second-order part of the indentation over the approach, geometry "second"."""
+"""Second-order part of the indentation over the approach, in geometry "second"."""
 SKIN_CREEPAGE = 3e-4
-"""Creepage by third-order stretch under stiff top layers, geometry "second"; both this ..."""
+"""Creepage due to third-order stretch of stiff top layers, in geometry "second"; both this ..."""
 SKIN_SHARE = 0.03
-"""... and this share of the creepage must be exceeded."""
+"""... and this share of the whole creepage must be exceeded."""
 SHEET_SHARE = 0.6
-"""Share of an imposed strain that makes a top layer a sheet; below, the rubber evens it out."""
+"""Share of an imposed strain that the surface takes, above which top layers act as a sheet. Below
+it, the rubber underneath evens the strain out.
+"""
 TEMPERATURE_SPAN = 60.0
-"""Distance of a temperature from the reference of its shift [K]."""
+"""Distance of a temperature from the reference temperature of its shift [K]."""
 TIME_SPAN = 10.0
-"""Factor by which the time in the nip may leave the relaxation times of a Prony series."""
+"""Factor by which the dwell time may lie outside the relaxation times of a Prony series."""
 THIN_TOP_LAYER = "thin_top_layer"
-"""Kind of the reservation on a top layer that is thinner than half an element."""
+"""Kind of the reservation on a top layer thinner than half an element."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +58,11 @@ class StrainSizes:
 
     Attributes
     ----------
-    surface : largest strain of either surface in the contact, mean over an element.
+    surface : largest strain of either surface in the contact, as a mean over one element.
     second : largest second-order indentation in the contact over the approach; 0 where there is
         none, and in "finite".
-    skin : third-order stretch of stiff top layers, as `_skin_stretch` estimates it; 0 where there
-        are none, and but in "second".
+    skin : effect of the third-order stretch of stiff top layers, estimated by `_skin_stretch`; 0
+        where there are none, and in all geometries but "second".
     """
 
     surface: float
@@ -67,9 +71,9 @@ class StrainSizes:
 
     @classmethod
     def of(cls, nip: Nip, model: Model, final: Round) -> StrainSizes:
-        """Return the strains of a solution."""
+        """Return the sizes of the strains in a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
-        if model.geometry == "finite":  # of all orders: nothing is left out
+        if model.geometry == "finite":  # strain to all orders: nothing is left out
             return cls(surface, 0.0, 0.0)
         return cls(surface, second_share(nip, final), _skin_stretch(nip, final))
 
@@ -77,7 +81,7 @@ class StrainSizes:
 def validity_reservations(
     nip: Nip, model: Model, final: Round, strains: StrainSizes
 ) -> tuple[Reservation, ...]:
-    """Return reservations on a solution: what is exceeded, and what it costs."""
+    """Return the reservations on a solution: what exceeds its limit, and what that costs."""
     rollers = _rollers(nip)
     found = [
         _nip_strain(nip, final),
@@ -104,11 +108,11 @@ def _nip_strain(nip: Nip, final: Round) -> Reservation | None:
 
 
 def pressed_in(nip: Nip, approach: float) -> Reservation | None:
-    """Return the reservation on coverings that are pressed in far; None within the limit.
+    """Return the reservation on deeply indented coverings; None within the limit.
 
     Parameters
     ----------
-    nip : with any cores.
+    nip : any nip; with half-space cores there is no reservation.
     approach : how far the coverings are pressed in [mm].
     """
     covering = nip.upper.coating_thickness + nip.lower.coating_thickness
@@ -170,7 +174,11 @@ def _surface_strain(largest: float) -> Reservation | None:
 
 
 def second_share(nip: Nip, final: Round) -> float:
-    """Return the largest second-order indentation in the contact over the approach."""
+    """Return the largest second-order indentation in the contact over the approach.
+
+    With a half-space core, where the approach is infinite, the depth a^2/(2 R) of the undeformed
+    gap at half the nip width takes its place.
+    """
     if final.mesh.kernels.is_linear:
         return 0.0
     inside = final.mesh.inner[final.state.pressure > 0.0]
@@ -184,9 +192,9 @@ def second_share(nip: Nip, final: Round) -> float:
 
 
 def _second_order(share: float) -> Reservation | None:
-    """Return a reservation where terms of second order are a large share of those of first order.
+    """Return the reservation on second-order terms that are a large share of the first-order ones.
 
-    Terms of third order are taken as the same share of those of second order.
+    Terms of third order are estimated as the same share of those of second order.
     """
     if share <= SECOND_SHARE:
         return None
@@ -202,14 +210,14 @@ def _second_order(share: float) -> Reservation | None:
 
 
 def _skin_stretch(nip: Nip, final: Round) -> float:
-    """Return how far the stretch of stiff top layers may be off by terms of third order.
+    """Return the creepage that stiff top layers may add by stretch of third order.
 
-    A stiff top layer that turns by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
-    second order makes up for r_1^2/2, r_1 the rotation of the linear solution, and not for what
-    r_1 lacks: (r^2 - r_1^2)/2, of third order. Of a strain that is imposed on the sheet the surface
-    takes the share k^2 D/(k^2 D + K): D is the stiffness of the sheet along itself, K the shear
-    traction that displaces what it covers by one. The estimate is that share of the root mean
-    square of (r^2 - r_1^2)/2 in the nip, the sum for both rollers.
+    A stiff top layer that rotates by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
+    second order accounts for r_1^2/2, where r_1 is the rotation of the linear solution. It leaves
+    out (r^2 - r_1^2)/2, which is of third order. When a strain is imposed on the sheet, the surface
+    takes the share k^2 D/(k^2 D + K) of it: D is the stiffness of the sheet in its plane, K the
+    shear traction that displaces the foundation below it by a unit length. The estimate is this
+    share of the root mean square of (r^2 - r_1^2)/2 in the nip, summed over both rollers.
     """
     mesh, state = final.mesh, final.state
     if mesh.kernels.is_linear:
@@ -238,9 +246,10 @@ def _skin_stretch(nip: Nip, final: Round) -> float:
 def _sheet_share(layers: tuple[Layer, ...], half_width: float) -> float:
     """Return the share of a strain, imposed on stiff top layers, that the surface takes.
 
-    With K of `_skin_stretch` the compliance to shear is 1/(k^2 D + K) and without the sheet 1/K:
-    the share is one less their ratio, at k = 1/a. The sheet is the top layers above any interface,
-    whichever gives most; without it, they are of the material below.
+    With D and K of `_skin_stretch`, the compliance to shear is 1/(k^2 D + K) with the sheet and 1/K
+    without it. The share is 1 minus the ratio of these, at k = 1/a. The sheet may be the layers
+    above any interface; the one with the largest share counts. To compute the compliance without
+    the sheet, its layers are given the material below them.
     """
     k = np.array([1.0 / half_width])
 
@@ -323,11 +332,11 @@ def _energies(side: Side, roller: Roller, model: Model) -> list[Reservation]:
 
 
 def energies_left_out(side: Side, roller: Roller) -> list[Reservation]:
-    """Return a reservation for each strain energy of a roller that a linear model does not see.
+    """Return a reservation on each strain energy of a roller that a linear model ignores.
 
     Parameters
     ----------
-    side : of the roller.
+    side : which roller it is.
     roller : the roller.
     """
     return [

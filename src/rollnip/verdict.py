@@ -1,6 +1,6 @@
-"""Whether a solution is verified: its claimed errors against the tolerance, in words.
+"""Verdict on a solution: whether its claimed errors meet the tolerance, and a sentence about them.
 
-`converged` and `status` come from the same numbers.
+`converged` and `status` of a solution follow from the same numbers.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from rollnip.rolling import Round, model_shares, relative_claims
 from rollnip.rolling.changes import ROUNDING
 
 FINEST_OF_FINITE = Model().tolerance
-"""The finest tolerance that geometries of finite strain can meet, the default one.
+"""The finest tolerance that the geometries of finite strain can meet: the default one.
 
-Below it they leave more open, however fine the mesh.
+What the models themselves leave out exceeds a finer one, however fine the mesh.
 """
 _LEFT_BY: Mapping[Geometry, str] = {
     "second": 'the second order of "second"',
     "finite": 'the finite elements of "finite"',
 }
 ACCEPT_IT = "accept it with a larger tolerance"
-"""What helps where no finer mesh or grid is to be had."""
+"""The advice where no finer mesh or grid is available."""
 WORDS: Mapping[str, str] = {
     "approach": "approach",
     "load": "load",
@@ -31,18 +31,19 @@ WORDS: Mapping[str, str] = {
     "nip_width": "nip width",
     "peak_pressure": "peak pressure",
 }
-"""Words for the figures that the tolerance is for."""
+"""Words for the figures to which the tolerance applies."""
 
 
 def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
-    """Return whether the claimed errors meet the tolerance, and a sentence on them.
+    """Return whether the claimed errors meet the tolerance, and a sentence about them.
 
-    At finite strain the error of the model meets a tolerance of 1e-3 or more, and does not meet a
-    finer one. The mesh may then leave as much of the same figures.
+    A claimed error has a share from the mesh and a share from the model. In a geometry of finite
+    strain the share of the model meets every tolerance of 1e-3 or more, even where it is larger
+    than that, and the mesh may then leave as much of the same figure. It meets no finer tolerance.
     """
     relative = relative_claims(nip, model.geometry, final)
     if not relative:
-        return False, "Nothing is pressed: no figure has an error that could be claimed."
+        return False, "The solution has no pressure in the nip, so that no error can be estimated."
     model_errors = model_shares(nip, model.geometry, final)
     shares = {name: model_errors[name] for name in relative}
     is_met = model.tolerance >= FINEST_OF_FINITE
@@ -64,7 +65,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
 
 
 def missed(figure: str, error: float, ratio: float, tolerance: float) -> str:
-    """Return the sentence on a relative error that is ``ratio`` times as large as is allowed."""
+    """Return the sentence for a relative error that is ``ratio`` times the allowed one."""
     return (
         f"{estimated_error_of(figure, error)}, {ratio:.1f} times what the tolerance "
         f"{tolerance:g} allows, on the finest mesh; {ACCEPT_IT}."
@@ -72,7 +73,7 @@ def missed(figure: str, error: float, ratio: float, tolerance: float) -> str:
 
 
 def violated(by: float, tolerance: float) -> str:
-    """Return the beginning of a sentence on contact conditions that are not met."""
+    """Return the beginning of the sentence for contact conditions that are not met."""
     return (
         f"The contact conditions are violated by {by:.1e} (relative), more than the tolerance "
         f"{tolerance:g}"
@@ -80,23 +81,29 @@ def violated(by: float, tolerance: float) -> str:
 
 
 def estimated_error_of(figure: str, error: float | str) -> str:
-    """Return the beginning of a sentence on an error, relative or in words as it is given."""
+    """Return the beginning of a sentence about an error: a relative one, or one given in words."""
     size = error if isinstance(error, str) else f"{error:.1e} (relative)"
     return f"The estimated error of the {figure} is {size}"
 
 
 def worst_error(relative: Mapping[str, float], allowed: Mapping[str, float]) -> tuple[str, float]:
-    """Return the figure whose error is largest over the allowed one, and that ratio; nan counts."""
+    """Return the figure with the largest ratio of error to allowed error, and this ratio.
+
+    A ratio that is nan counts as the largest.
+    """
     ratios = {name: relative[name] / allowed[name] for name in relative}
     worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
     return worst, ratios[worst]
 
 
 def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
-    """Return words on the errors that exceed the tolerance and that something leaves.
+    """Return words for those errors that exceed the tolerance; "" where none does.
 
-    ``relative``: errors by the names of `WORDS` or by words. ``by`` names what leaves them with
-    its verb, as in "the samples leave".
+    Parameters
+    ----------
+    relative : relative errors by the names of `WORDS`, or by words.
+    tolerance : the relative tolerance.
+    by : what leaves these errors, with its verb, such as "the samples leave".
     """
     beyond = tolerance * (1.0 + ROUNDING)
     larger = {name: share for name, share in relative.items() if share > beyond}

@@ -1,9 +1,9 @@
-"""What the change of volume of nearly incompressible layers means for the approach.
+"""Reservations on nearly incompressible layers so thin that their change of volume matters.
 
-Under a nip that is much wider than a layer is thick, the layer cannot flow out of it. It gives way
-by its change of volume, by h p/M: M = E (1 - nu)/((1 + nu)(1 - 2 nu)) is the modulus of a layer
-that cannot widen. Near nu = 1/2 this depends on the last digits of nu = 1/2 - E/(6 K), and the
-bulk modulus K of solid rubbers differs little from one to another.
+Under a nip much wider than a layer is thick, the layer cannot flow sideways. It is compressed by
+its change of volume alone, by h p/M, where M = E (1 - nu)/((1 + nu)(1 - 2 nu)) is the modulus of a
+layer that cannot widen. Near nu = 1/2 this depends on the last digits of nu = 1/2 - E/(6 K); and
+the bulk modulus K differs little from one solid rubber to another.
 """
 
 from __future__ import annotations
@@ -16,13 +16,17 @@ from rollnip.rollers import Roller, Side
 from rollnip.rolling import Round
 
 BULK_MODULUS = 2000.0
-"""Bulk modulus of rubber [MPa], rounded. Measured values differ from one rubber to another; natural
-rubber: L. A. Wood & G. M. Martin, Compressibility of natural rubber at pressures below 500 kg/cm2,
-J. Res. Natl. Bur. Stand. 68A (1964), 259-268 (not consulted: the number is not taken from it)."""
+"""Bulk modulus of rubber [MPa], rounded. Measured values differ from one rubber to another. For
+natural rubber see L. A. Wood & G. M. Martin, Compressibility of natural rubber at pressures below
+500 kg/cm2, J. Res. Natl. Bur. Stand. 68A (1964), 259-268 (not consulted: the number is not taken
+from it).
+"""
 NEARLY_INCOMPRESSIBLE = 0.499
-"""Poisson ratio from which a layer is meant to keep its volume."""
+"""Poisson ratio from which on a layer is taken as meant to keep its volume."""
 VOLUME_SHARE = 0.05
-"""Change of the approach by the bulk modulus of rubber, over the approach."""
+"""Relative change of the approach, by the bulk modulus of rubber, above which there is a
+reservation.
+"""
 
 
 def volume_reservations(
@@ -30,9 +34,9 @@ def volume_reservations(
 ) -> Iterator[Reservation]:
     """Yield a reservation on each layer whose change of volume is not that of rubber.
 
-    The change of the approach is estimated under the mean pressure. Layers of the thickness d under
-    half a nip of a are kept from widening by the share a^2/(a^2 + d^2), about: this gives 0.8 to
-    1.1 of the true change where a is 1.2 to 80 times d (decision 64).
+    The change of the approach is estimated under the mean pressure. Coverings of thickness d under
+    half a nip width a are kept from widening to the share a^2/(a^2 + d^2), approximately. The
+    estimate is 0.8 to 1.1 times the true change where a is 1.2 to 80 times d (decision 64).
     """
     figures = final.figures
     if nip.has_half_space or not figures.approach > 0.0:

@@ -1,4 +1,4 @@
-"""Output of a solution: its case, its tree of values, its dataset, its summary.
+"""Output of a solution: its case, its tree of values, its dataset and its summary.
 
-These read the attributes of a solution alone, so that `Solution` can stand on them.
+These modules only read attributes of a solution, so that `Solution` itself can build on them.
 """

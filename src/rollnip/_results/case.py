@@ -1,4 +1,4 @@
-"""The case of a solution: its problem and model as the tree of a case file, in base units."""
+"""The case of a solution: problem and model as the tree of a case file, in base units."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from rollnip.patches import Across, Force, Patch
 from rollnip.rollers import Roller
 from rollnip.shafts import Crown, CrownTable, Face, Shaft
 
-# What `model` is called in a case file.
+# The value of the key `model` in a case file, by class.
 _NAMES: Mapping[type, str] = {
     Elastic: "elastic",
     StandardLinearSolid: "standard-linear-solid",
@@ -47,10 +47,10 @@ _NAMES: Mapping[type, str] = {
 def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
     """Return a problem and its model as the tree of a case file.
 
-    Every quantity is a number in its base unit; an infinite radius is the text "inf"; defaults are
-    written out; what is not given is left out. A hardness is there as the modulus it stands for. A
-    measured profile is described by a text (number of samples, range, digest), for a result does
-    not know the name of its file.
+    Every quantity is a number in its base unit, and an infinite radius is the text "inf". Defaults
+    are written out; what is not given is left out. A hardness appears as the modulus that it stands
+    for. A measured profile is described by a text (number of samples, range, digest), since a
+    result does not know the name of its file.
     """
     tree: dict[str, Any] = {"title": nip.title} if nip.title else {}
     tree["nip"] = _without_none(
@@ -69,7 +69,7 @@ def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
 def problem_hash(
     nip: Nip, model: Model, face: Face | None = None, heat: HeatBalance | None = None
 ) -> str:
-    """Return 16 hexadecimal digits that tell problems apart; the title does not count."""
+    """Return 16 hexadecimal digits that identify problem and model; the title does not count."""
     problem = replace(nip, title="") if nip.title else nip
     parts: tuple[object, ...] = (problem, model) if face is None else (problem, model, face)
     if heat is not None:
@@ -81,13 +81,13 @@ def problem_hash(
 def patch_case_tree(
     patch: Patch, tolerance: float, grid: tuple[int, int] | None = None
 ) -> dict[str, Any]:
-    """Return a problem in three dimensions as the tree of a case file, written as `case_tree` does.
+    """Return a problem in three dimensions as the tree of a case file, in the form of `case_tree`.
 
     Parameters
     ----------
     patch : the problem.
     tolerance : wanted relative accuracy.
-    grid : numbers of rectangles along x and y that were prescribed; None: none.
+    grid : the prescribed numbers of rectangles along x and y; None where they were not prescribed.
     """
     tree: dict[str, Any] = {"title": patch.title} if patch.title else {}
     tree["nip"] = _without_none(
@@ -104,20 +104,20 @@ def patch_case_tree(
 
 
 def patch_problem_hash(patch: Patch, tolerance: float, grid: tuple[int, int] | None = None) -> str:
-    """Return 16 hexadecimal digits that tell patches apart; the title does not count."""
+    """Return 16 hexadecimal digits that identify a patch problem; the title does not count."""
     parts = (replace(patch, title=""), tolerance, grid)
     return sha256(repr(parts).encode()).hexdigest()[:16]
 
 
 def _driven(force: str, motion: str, given: Force | Approach | Creepage) -> dict[str, float]:
-    """Return what is prescribed, as the key of a force or of a motion."""
+    """Return a prescribed force or motion under its key."""
     if isinstance(given, Force):
         return {force: given.force}
     return {motion: given.approach if isinstance(given, Approach) else given.creepage}
 
 
 def _across(shape: Across) -> dict[str, Any]:
-    """Return the keys of a roller about its shape along the axis."""
+    """Return the keys that describe the shape of a roller along its axis."""
     return _without_none(
         {
             "lateral_radius": "inf" if isinf(shape.radius) else shape.radius,
@@ -129,7 +129,7 @@ def _across(shape: Across) -> dict[str, Any]:
 
 
 def heat_tree(heat: HeatBalance) -> dict[str, Any]:
-    """Return the tables of a heat balance: "heat", and "upper" and "lower" of the rollers."""
+    """Return the tables of a heat balance: "heat", and "upper" and "lower" for the rollers."""
     whole = _without_none({"ambient": heat.ambient, "start": heat.start})
     if heat.sheet is not None:
         whole["sheet"] = _flat(heat.sheet)
@@ -148,7 +148,7 @@ def _cooling(cooling: Cooling) -> dict[str, Any]:
 
 
 def _flat(part: Any) -> dict[str, Any]:
-    """The fields of a part, its thermal properties among them."""
+    """Return the fields of a part and of its thermal properties in one table."""
     tree = {one.name: getattr(part, one.name) for one in fields(part) if one.name != "thermal"}
     return _without_none(tree) | _plain(part.thermal)
 
@@ -188,13 +188,13 @@ def _crown(crown: Crown | CrownTable | float) -> dict[str, Any]:
 
 
 def _rows(table: Any) -> dict[str, Any]:
-    """Lists of a table over y."""
+    """Return the lists of a table over y."""
     rows = _without_none({one.name: getattr(table, one.name) for one in fields(table)})
     return {name: values.tolist() for name, values in rows.items()}
 
 
 def _named(part: Any) -> dict[str, Any]:
-    """A material or a shift, with the name of its kind first."""
+    """Return a material or a shift as a table that begins with the name of its model."""
     kind = type(part)
     return {"model": _NAMES.get(kind, kind.__name__)} | _without_none(_plain(part))
 

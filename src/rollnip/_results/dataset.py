@@ -14,7 +14,7 @@ _Variables = dict[str, tuple[Any, ...]]
 
 
 def result_dataset(tree: dict[str, Any]) -> Any:
-    """Return the xarray dataset of a result tree; None is NaN, texts are attributes.
+    """Return the xarray dataset of a result tree: None becomes NaN, texts become attributes.
 
     Raises ModuleNotFoundError where xarray is not installed.
     """
@@ -134,7 +134,7 @@ def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
 
 
 def _grip(grip: dict[str, Any]) -> _Variables:
-    """Return the pulls that hold the sheet, the present one, which side slides first, and use."""
+    """Return the pull, its limits, the side that slides first, and how much of the grip is used."""
     pull = {"units": PULL_FIGURES["largest"].unit, "long_name": "pull on the sheet"}
     found: _Variables = {"sheet_pull": _scalar(grip["pull"], pull)}
     for key, figure in PULL_FIGURES.items():
@@ -147,7 +147,7 @@ def _grip(grip: dict[str, Any]) -> _Variables:
 
 
 def _tupled(variables: _Variables) -> list[tuple[str, tuple[Any, ...]]]:
-    """Variables of one dimension with it as a tuple."""
+    """Return variables of one dimension, with that dimension as a tuple."""
     return [(name, ((one[0],), *one[1:])) for name, one in variables.items()]
 
 

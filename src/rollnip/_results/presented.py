@@ -27,13 +27,14 @@ class Presented:
 
     @property
     def case_hash(self) -> str:
-        """16 hexadecimal digits that tell problems and models apart; the title does not count."""
+        """16 hexadecimal digits that identify problem and model; the title does not count."""
         return problem_hash(self.nip, self.model)
 
     def summary(self, units: Units = "metric") -> str:
         """Return the figures with units and errors, the zones and the warnings, as lines of text.
 
-        Stresses on interfaces, which may take longer than the solution, are in ``interfaces``.
+        Stresses on interfaces may take longer than the solution and are left out; see
+        ``interfaces``.
 
         Parameters
         ----------
@@ -42,16 +43,17 @@ class Presented:
         Raises
         ------
         InvalidInputError
-            where the units are neither of these.
+            where ``units`` is neither of these.
         """
         return summary.text(self, checked_units("units", units))
 
     def to_xarray(self, *, interfaces: bool = False) -> Any:
-        """Return the result as an xarray Dataset: what the netCDF file holds.
+        """Return the result as an xarray Dataset, with the contents of the netCDF file.
 
         Parameters
         ----------
-        interfaces : with the stresses on interfaces, which may take longer than the solution.
+        interfaces : whether to include the stresses on interfaces, which may take longer than the
+            solution.
 
         Raises
         ------

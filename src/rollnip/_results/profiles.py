@@ -1,4 +1,4 @@
-"""Distributions along the surfaces: places to show them at, slip velocities, strains."""
+"""Distributions along the surfaces: points at which to show them, slip velocity and strain."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rollnip.rolling.surfaces import Array
 
 
 def fine_points(final: Round) -> Array:
-    """Return the nodes from edge to edge, and points to just over a nip width outside."""
+    """Return the nodes from edge to edge, and points to just over a nip width on either side."""
     is_cubic = final.mesh.fine.values is not None
     inside = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]
     width = final.figures.nip_width
@@ -25,7 +25,7 @@ def fine_points(final: Round) -> Array:
 
 
 def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: float) -> Array:
-    """Return the slip velocity of the upper surface relative to the lower, nan outside."""
+    """Return the slip velocity of the upper surface relative to the lower, nan outside contact."""
     rate = -speed * fields.creep / np.diff(fields.x)
     out = np.full(fields.x.size, np.nan)
     middle = 0.5 * (fields.x[1:] + fields.x[:-1])
@@ -41,7 +41,7 @@ def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: flo
 def surface_strain(
     x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
 ) -> Array:
-    """Return the strain of one surface at ``x``: du_x/dx, in curved geometry stretch less 1."""
+    """Return the strain of one surface at ``x``: du_x/dx, or in rings the stretch less 1."""
     upper = side == "upper"
     roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
     if surface is None:
@@ -64,9 +64,9 @@ def surface_strain(
 
 
 def _of_surface(per_traction: Array, pressure: Array, shear: Array) -> tuple[Array, Array]:
-    """Return u_x and u_z, or slopes, of a surface.
+    """Return u_x and u_z of a surface, or their slopes.
 
-    ``per_traction``: (3, n, N-1) by xx, zz and xz.
+    ``per_traction`` holds the influence of xx, zz and xz, (3, n, N-1).
     """
     xx, zz, xz = per_traction
     return xz @ pressure + xx @ shear, zz @ pressure - xz @ shear

@@ -1,4 +1,4 @@
-"""Records of a solution beside its figures: zones, profiles, surfaces, solver information."""
+"""Records of a solution besides its figures: zones, profiles, surfaces, solver information."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A piece of the contact in one state.
+    """A part of the contact that sticks or slips.
 
     Attributes
     ----------
     start, stop : trailing and leading end [mm].
     state : "stick" or "slip".
-    direction : sign of the slip velocity of the upper surface, along +x; None in stick.
+    direction : sign of the slip velocity of the upper surface relative to the lower one, along +x;
+        None in stick.
     """
 
     start: float
@@ -32,16 +33,17 @@ class Zone:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Profiles(Sealed):
-    """Distributions over x, from trailing to leading, to one nip width outside the contact.
+    """Distributions over x, from trailing to leading, up to one nip width outside the contact.
 
     Attributes
     ----------
-    x : (n,) [mm], towards the leading edge.
-    pressure, shear : (n,) [MPa]; shear on the upper roller, along +x.
+    x : (n,) places [mm], towards the leading edge.
+    pressure, shear : (n,) [MPa]; shear stress on the upper roller, along +x.
     gap : (n,) distance of the surfaces [mm].
-    slip_velocity : (n,) of the upper surface relative to the lower, along +x [mm/s]; nan outside
-        the contact; None without speed or creepage.
-    strain_upper, strain_lower : (n,) du_x/dx of each surface (of rings: stretch less 1).
+    slip_velocity : (n,) velocity of the upper surface relative to the lower one, along +x [mm/s];
+        nan outside the contact; None without speed or creepage.
+    strain_upper, strain_lower : (n,) du_x/dx of each surface; in geometries with rings, stretch
+        less 1.
     speed_upper, speed_lower : (n,) V_roller (1 + strain) [mm/s]; None without speed or creepage.
     """
 
@@ -58,13 +60,13 @@ class Profiles(Sealed):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DeformedSurfaces(Sealed):
-    """Both deformed surfaces in one frame: the lower axle below, heights above first touch.
+    """Both deformed surfaces in one frame: lower roller below, heights from its undeformed top.
 
     Attributes
     ----------
-    x : (n,) [mm], towards the leading edge.
-    upper, lower : (n,) heights of the surfaces [mm], relative to the top of the undeformed lower
-        roller; their difference is the gap.
+    x : (n,) places [mm], towards the leading edge.
+    upper, lower : (n,) heights of the surfaces [mm] above the top of the undeformed lower roller;
+        their difference is the gap.
     """
 
     x: Array
@@ -74,16 +76,18 @@ class DeformedSurfaces(Sealed):
 
 @dataclass(frozen=True, slots=True)
 class SolverInfo:
-    """Information on how the solution was reached.
+    """How the solution was reached.
 
     Attributes
     ----------
-    elements : of the last mesh.
-    iterations : linear systems solved in all.
-    residual : largest violation of the contact conditions, evaluated on more points, relative.
-    geometry_change : last change of the geometry correction, relative; 0 for "linear".
+    elements : number of elements of the last mesh.
+    iterations : number of linear systems solved in all.
+    residual : largest relative violation of the contact conditions, evaluated at more points than
+        they were solved at.
+    geometry_change : last relative change of the geometry correction, or of the traction for a
+        prescribed torque; 0 for "linear" without a torque.
     seconds : wall time.
-    version : of rollnip.
+    version : version of rollnip.
     """
 
     elements: int

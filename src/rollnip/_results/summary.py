@@ -1,4 +1,4 @@
-"""The summary of a solution: lines of text, and the same as HTML for notebooks."""
+"""The summary of a solution, as lines of text and as HTML for notebooks."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _STYLE = "text-align:left;border:0;padding:0.1em 0.8em 0.1em 0"
 class Line(NamedTuple):
     """One line of a summary: a figure as text; ``value`` is "-" where it is not defined.
 
-    ``note`` says why a figure is not defined.
+    ``note`` then says why it is not defined.
     """
 
     label: str
@@ -39,7 +39,7 @@ class Line(NamedTuple):
 
 
 def line(figure: Figure, solution: Any) -> Line:
-    """The line of one figure; 0 where the figure is a rounding error."""
+    """Return the line of one figure, with 0 where the figure is a rounding error."""
     value = figure.cleaned(solution)
     if value is None:
         return Line(figure.label, "-", note=figure.undefined or "not defined")
@@ -51,7 +51,7 @@ def line(figure: Figure, solution: Any) -> Line:
 
 
 def sections(solution: Any, units: Units = "metric") -> Iterator[tuple[str, list[Line]]]:
-    """Headings with their lines: nip, drive, losses, and the whole face where it has a width."""
+    """Yield headings with their lines: nip, drive, losses and, if there are any, sheet and face."""
     for section, heading in _HEADINGS.items():
         lines = []
         for figure in FIGURES.values():
@@ -73,7 +73,7 @@ def finite_inside(solution: Any) -> list[str]:
 
 
 def inside_notes(solution: Any) -> list[str]:
-    """Return a sentence for each roller inside which fields of geometry "finite" are linear."""
+    """Return a sentence for each roller whose interior fields are linear in geometry "finite"."""
     if solution.model.geometry != "finite" or not solution.peak_pressure > 0.0:
         return []
     finite = finite_inside(solution)
@@ -105,14 +105,14 @@ def brief(solution: Any) -> str:
 
 
 def one_line(result: Any, title: str, model: str, *texts: str) -> str:
-    """Return a result of any kind in one line, from texts on its main figures."""
+    """Return a result of any kind in one line, with texts on its main figures."""
     name = f'"{title}", ' if title else ""
     state = "converged" if result.converged else "NOT CONVERGED"
     return f"<{type(result).__name__} {name}{state}{model}: {', '.join(texts)}>"
 
 
 def text(solution: Any, units: Units = "metric") -> str:
-    """The summary as lines of plain text."""
+    """Return the summary as lines of plain text."""
     lines = [solution.nip.title or "Nip", "".join(verdict(solution))]
     for heading, rows in sections(solution, units):
         lines += ["", heading, *map(_plain, rows)]
@@ -123,7 +123,7 @@ def text(solution: Any, units: Units = "metric") -> str:
 
 
 def html(solution: Any) -> str:
-    """The summary as HTML, as a notebook shows it."""
+    """Return the summary as HTML for notebooks."""
     title = escape(solution.nip.title or "Nip")
     parts = [f"<p><strong>{title}</strong><br>{escape(''.join(verdict(solution)))}</p>", "<table>"]
     for heading, rows in sections(solution):
@@ -135,7 +135,7 @@ def html(solution: Any) -> str:
 
 
 def zone_sections(solution: Any, units: Units = "metric") -> Iterator[tuple[str, list[Line]]]:
-    """Headings with a line for each zone of stick and slip; both interfaces of a sheet."""
+    """Yield headings with a line for each zone of stick or slip; a sheet has two headings."""
     if solution.sheet is None:
         if solution.zones:
             yield "Stick and slip", list(_zone_lines(solution.zones, FASTER, units))
@@ -155,14 +155,14 @@ def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str], units: Units) -
 
 
 def _grip(grip: Any, units: Units) -> Iterator[Line]:
-    """Yield the pulls between which the sheet holds, and the side that slides all over first."""
+    """Yield the limits of the pull on the sheet, and the side that slides all over first."""
     for key, figure in PULL_FIGURES.items():
         yield _sub_line(figure.label, figure.in_units(units), getattr(grip, key))
     yield Line("  slides first where pulled", f"{grip.first} side")
 
 
 def _contact(solution: Any, units: Units) -> Iterator[Line]:
-    """Yield the edges of each contact interval, or the outermost edges and the length of many."""
+    """Yield the edges of each contact interval; of many, the outermost edges and total length."""
     intervals = solution.contact
     if len(intervals) > _MOST_INTERVALS:
         length = sum(leading - trailing for trailing, leading in intervals)
@@ -174,7 +174,7 @@ def _contact(solution: Any, units: Units) -> Iterator[Line]:
 
 
 def _alike(solution: Any, units: Units) -> Iterator[Line]:
-    """Yield a line for the place of each further peak as high as the highest; one for many."""
+    """Yield a line for the place of each further peak as high as the highest; for many, one."""
     places = solution.peaks_alike_x
     if len(places) > _MOST_INTERVALS:
         yield Line("  as high in", f"{len(places)}", "other places")

@@ -1,4 +1,4 @@
-"""The result of a solution as a tree of finite numbers, texts and None."""
+"""A result as a tree of finite numbers, texts and None."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ SCHEMA = 1
 
 
 def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
-    """The result as a tree of finite numbers, texts and None: what the JSON holds.
+    """Return the result as a tree of finite numbers, texts and None: the contents of the JSON.
 
-    Units mm, N, MPa, s; per axial length, save ``totals`` (N, N m, W), which is there where the
-    nip has a face width. ``case`` is what was solved, as the tree of a case file. What is not
-    finite or not defined is None. The stresses on interfaces
-    may take longer than the solution itself; without ``interfaces`` their key is not there, nor
-    the warning where they could not be found at finite strain.
+    Units are mm, N, MPa and s, per axial length, except in ``totals`` (N, N m, W), which exists
+    where the nip has a face width. ``case`` is what was solved, as the tree of a case file. What is
+    not finite or not defined is None. The stresses on interfaces may take longer than the solution
+    itself. Without ``interfaces`` their key is left out, and so is the warning that they could not
+    be computed at finite strain.
     """
     tree: dict[str, Any] = {
         "schema": SCHEMA,
@@ -114,7 +114,7 @@ def _zone(zone: Zone) -> dict[str, Any]:
 
 
 def _totals(solution: Any, width: float) -> dict[str, float | None]:
-    """The figures of the whole face: N, N m, W."""
+    """Return the figures of the whole face, in N, N m and W."""
     totals: dict[str, float | None] = {"face_width": width}
     for figure in FIGURES.values():
         if figure.total is not None:

@@ -1,8 +1,8 @@
-"""Closed forms of rolling contact: exact or asymptotic solutions to check a computation against.
+"""Closed forms of rolling contact: exact or asymptotic solutions for checking a computation.
 
-Pure functions; mm, N, MPa, s throughout. x points to the leading edge, pressure is positive, shear
-is the traction on the upper roller along +x, and T > 0 where the upper roller drives. Every formula
-names its source and its range.
+Pure functions in mm, N, MPa, s. x points to the leading edge, pressure is positive, shear is the
+traction on the upper roller along +x, and T > 0 where the upper roller drives. Every formula names
+its source and its range.
 """
 
 from rollnip.closed_forms.dissimilar import (

@@ -1,4 +1,4 @@
-"""Checks, shapes and a quadrature the closed forms share."""
+"""Checks, shapes and a quadrature that the closed forms share."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def require_poisson(name: str, value: float) -> None:
 
 
 def require_below_bound(traction: float, bound: float) -> None:
-    """Raise InvalidInputError unless ``traction`` is smaller in size than friction * load."""
+    """Raise InvalidInputError unless the magnitude of ``traction`` is below friction * load."""
     require_finite("traction", traction)
     if not abs(traction) < bound:
         raise InvalidInputError(
@@ -50,9 +50,10 @@ def half_ellipse(x: ArrayLike, half_width: float) -> NDArray[np.float64]:
 def graded_rule(
     levels: int = 24, order: int = 10
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and weights on [0, 1]: Gauss-Legendre on panels that halve towards 0.
+    """Return nodes and weights on [0, 1]: Gauss-Legendre on panels that halve towards 0.
 
-    Integrates what is smooth but for a boundary layer at 0, of any width above 2^-levels.
+    The rule integrates functions that are smooth except for a boundary layer at 0, of any width
+    above 2^-levels.
     """
     ends = np.concatenate([[0.0], 0.5 ** np.arange(levels, -1, -1.0)])
     nodes, weights = np.polynomial.legendre.leggauss(order)

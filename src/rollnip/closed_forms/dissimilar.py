@@ -1,4 +1,4 @@
-"""Free rolling of dissimilar half-spaces (Bentall & Johnson): its two limits in friction.
+"""Free rolling of dissimilar half-spaces (Bentall & Johnson), in both limits of friction.
 
 Pressure p stretches the surface of a half-space by du_x/dx = -(1 - 2 nu)/(2 G) p. Two bodies differ
 by -B p, B = (1 - 2 nu_u)/(2 G_u) - (1 - 2 nu_l)/(2 G_l), and must creep even without traction.
@@ -30,7 +30,7 @@ class VanishingFriction:
     creepage :
         xi; positive where the upper roller is the softer and more compressible one.
     reversal :
-        |x| [mm] where the direction of slip changes.
+        |x| [mm] at which the direction of slip changes.
     """
 
     hertz: HertzLine
@@ -40,7 +40,7 @@ class VanishingFriction:
 
 @dataclass(frozen=True, slots=True)
 class FullStick:
-    """Free rolling in the limit mu -> infinity: stick all over |x| <= half_width.
+    """Free rolling in the limit mu -> infinity: stick everywhere in |x| <= half_width.
 
     Attributes
     ----------
@@ -60,11 +60,11 @@ class FullStick:
     peak_pressure: float
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) [MPa], x [mm] of any shape; changes sign without end within a hair of the edges."""
+        """Return p(x) [MPa], x [mm] of any shape; it oscillates endlessly close to the edges."""
         return np.real(self._tractions(x))
 
     def shear(self, x: ArrayLike) -> NDArray[np.float64]:
-        """q(x) [MPa] on the upper roller along +x, x [mm] of any shape; odd in x."""
+        """Return q(x) [MPa] on the upper roller along +x, x [mm] of any shape; odd in x."""
         return np.imag(self._tractions(x))
 
     def _tractions(self, x: ArrayLike) -> NDArray[np.complex128]:
@@ -85,12 +85,11 @@ def free_rolling_vanishing_friction(
     shear_modulus_lower: float,
     poisson_lower: float,
 ) -> VanishingFriction:
-    """Free rolling of dissimilar cylinders with vanishing friction.
+    """Return the free rolling of dissimilar cylinders with vanishing friction.
 
-    The nip slips all over with the velocity s = -V (xi - B p), p Hertzian. No traction in sum
-    asks for as much load in the middle, |x| < c, as outside it:
-    asin(c/a) + (c/a) sqrt(1 - c^2/a^2) = pi/4, c = .40397 a, and
-    xi = B p0 sqrt(1 - c^2/a^2) = .91477 B p0.
+    The whole nip slips with the velocity s = -V (xi - B p), p Hertzian. Zero total traction
+    requires as much load in the middle, |x| < c, as outside it: asin(c/a) + (c/a) sqrt(1 - c^2/a^2)
+    = pi/4, c = .40397 a, and xi = B p0 sqrt(1 - c^2/a^2) = .91477 B p0.
 
     Parameters
     ----------
@@ -136,18 +135,18 @@ def free_rolling_full_stick(
     shear_modulus_lower: float,
     poisson_lower: float,
 ) -> FullStick:
-    """Free rolling of dissimilar cylinders that stick all over the nip.
+    """Return the free rolling of dissimilar cylinders that stick everywhere in the nip.
 
     beta = B/A, A = (1 - nu_u)/G_u + (1 - nu_l)/G_l;  eta = (1/2 pi) ln((1 + beta)/(1 - beta));
     a^2 (1 + 4 eta^2) = 2 A F R/pi;  xi = 2 eta a/R;
     p + i q = cosh(pi eta)/(A R) sqrt(a^2 - x^2) ((a + x)/(a - x))^{i eta}.
     Parameters and errors as in `free_rolling_vanishing_friction`.
 
-    Derivation: with H f = (1/pi) pv int f(t)/(t - x) dt, contact is A H p + B q = -x/R and stick
-    A H q - B p = -xi, so f = p + i q obeys H f - i beta f = -(x/R + i xi)/A. Its Cauchy integral
-    is the polynomial i (z/R + i xi)/(2 A) less i X(z)/(2 A R), X = sqrt(z^2 - a^2)
-    ((z + a)/(z - a))^{i eta}, bounded at both edges; it must vanish at infinity like 1/z, which
-    gives xi, and the coefficient of 1/z is the load. The load's imaginary part, T, is 0.
+    Derivation: with H f = (1/pi) pv int f(t)/(t - x) dt, contact is A H p + B q = -x/R and stick is
+    A H q - B p = -xi, so that f = p + i q obeys H f - i beta f = -(x/R + i xi)/A. Its Cauchy
+    integral is the polynomial i (z/R + i xi)/(2 A) minus i X(z)/(2 A R), X = sqrt(z^2 - a^2) ((z +
+    a)/(z - a))^{i eta}, bounded at both edges. It must vanish at infinity like 1/z, which gives xi;
+    the coefficient of 1/z is the load. The imaginary part of the load, T, is 0.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""Hertz: line contact of two half-spaces, with the stress inside."""
+"""Hertz contact: of two half-spaces along a line, with the stress inside, and over an ellipse."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class InteriorStress(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HertzLine:
-    """A Hertzian line contact: |x| <= half_width, no friction.
+    """A Hertzian line contact, |x| <= half_width, without friction.
 
     Attributes
     ----------
@@ -37,11 +37,11 @@ class HertzLine:
     peak_pressure: float
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) = p0 sqrt(1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
+        """Return p(x) = p0 sqrt(1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
         return self.peak_pressure * half_ellipse(x, self.half_width)
 
     def interior(self, x: ArrayLike, z: ArrayLike) -> InteriorStress:
-        """Stress inside either body under this pressure alone.
+        """Return the stress inside either body under this pressure alone.
 
         Exact for a half-space; independent of its moduli.
 
@@ -52,8 +52,8 @@ class HertzLine:
 
         Returns
         -------
-        InteriorStress [MPa] of the broadcast shape; s_xz in the frame of the body, x along the
-        nip and z into the body.
+        InteriorStress [MPa] of the broadcast shape; s_xz in the frame of the body, x along the nip
+        and z into the body.
 
         Raises
         ------
@@ -63,8 +63,8 @@ class HertzLine:
         Notes
         -----
         With P the harmonic function that equals p on z = 0: s_zz = -P + z P_z, s_xx = -P - z P_z,
-        s_xz = z P_x. For zeta = (x + i z)/a, P = p0 Re g with
-        g = 1/(sqrt(1 - zeta^2) - i zeta), which loses no digits far away.
+        s_xz = z P_x. For zeta = (x + i z)/a, P = p0 Re g with g = 1/(sqrt(1 - zeta^2) - i zeta),
+        which loses no digits far away.
 
         References
         ----------
@@ -88,10 +88,11 @@ class HertzLine:
 
 
 def hertz_line(*, load: float, radius: float, contact_modulus: float) -> HertzLine:
-    """Line contact of two cylinders: a^2 = 4 F R/(pi E*), p0 = 2 F/(pi a).
+    """Return the line contact of two cylinders: a^2 = 4 F R/(pi E*), p0 = 2 F/(pi a).
 
-    For elastic half-spaces: a much smaller than the radii and than any coating. The approach of
-    the axles is not defined (it grows with the logarithm of the size of the bodies).
+    For elastic half-spaces, with a much smaller than the radii and than the thickness of any
+    coating. The approach of the axles is not defined (it grows with the logarithm of the size of
+    the bodies).
 
     Parameters
     ----------
@@ -126,10 +127,10 @@ def contact_modulus(
     modulus_lower: float = inf,
     poisson_lower: float = 0.0,
 ) -> float:
-    """E* [MPa]: 1/E* = (1 - nu_u^2)/E_u + (1 - nu_l^2)/E_l; a modulus inf is a rigid body.
+    """Return E* [MPa], 1/E* = (1 - nu_u^2)/E_u + (1 - nu_l^2)/E_l; modulus inf is a rigid body.
 
-    Raises InvalidInputError unless moduli are positive, one of them finite, and Poisson ratios
-    lie in (-1, 0.5]. Johnson (1985), Contact Mechanics, section 4.2.
+    Raises InvalidInputError unless moduli are positive, one of them finite, and Poisson ratios lie
+    in (-1, 0.5]. Johnson (1985), Contact Mechanics, section 4.2.
     """
     require_poisson("poisson_upper", poisson_upper)
     require_poisson("poisson_lower", poisson_lower)
@@ -141,7 +142,7 @@ def contact_modulus(
 
 
 def effective_radius(radius_upper: float, radius_lower: float = inf) -> float:
-    """R [mm]: 1/R = 1/R_upper + 1/R_lower; a radius inf is a plane.
+    """Return R [mm], 1/R = 1/R_upper + 1/R_lower; a radius inf is a plane.
 
     Raises InvalidInputError unless radii are positive and one of them finite.
     """
@@ -160,7 +161,7 @@ def _inverse(name: str, value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class HertzEllipse:
-    """A Hertzian contact over an ellipse, no friction.
+    """A Hertzian contact over an ellipse, without friction.
 
     Attributes
     ----------
@@ -181,7 +182,7 @@ class HertzEllipse:
 def hertz_ellipse(
     *, load: float, curvature_x: float, curvature_y: float, contact_modulus: float
 ) -> HertzEllipse:
-    """Contact of two half-spaces with the gap curvature_x x^2/2 + curvature_y y^2/2.
+    """Return the contact of two half-spaces with the gap curvature_x x^2/2 + curvature_y y^2/2.
 
     Parameters
     ----------
@@ -204,8 +205,8 @@ def hertz_ellipse(
 
     References
     ----------
-    Johnson (1985), Contact Mechanics, eqs 4.24-4.28: with a the longer and b the shorter semi-axis,
-    m = 1 - b^2/a^2, the curvatures along a and b are as K - E to (a/b)^2 E - K.
+    Johnson (1985), Contact Mechanics, eqs 4.24-4.28: with a the longer and b the shorter semi-axis
+    and m = 1 - b^2/a^2, the ratio of the curvatures along a and b is (K - E) : ((a/b)^2 E - K).
     """
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipk

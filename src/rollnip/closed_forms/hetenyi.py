@@ -1,4 +1,4 @@
-"""Two rollers pressed together at their ends, on each other as on an elastic foundation."""
+"""Two rollers pressed together at their ends, each on the other as on an elastic foundation."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Array = NDArray[np.float64]
 
 
 def end_loaded_rollers(y: Array, length: float, foundation: float, bending: float) -> Array:
-    """Line load between two end-loaded rollers over its mean.
+    """Return the line load between two end-loaded rollers, over its mean.
 
-    Both bend as slender beams, pressed together at the ends of the face; the nip gives way by load
+    Both bend as slender beams, pressed together at the ends of the face; the nip yields by load
     over ``foundation``. With lambda^4 = k/(4 E I_r), 1/EI_r = 1/EI_1 + 1/EI_2, x from one end:
 
         w/mean = lambda L (cosh lx cos l(L-x) + cosh l(L-x) cos lx)/(sinh lL + sin lL).

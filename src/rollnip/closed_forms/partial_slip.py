@@ -1,7 +1,7 @@
 """Partial slip of elastically similar half-spaces: Carter (rolling) and Cattaneo (at rest).
 
-Similar: identical bodies, both incompressible, or any pair with equal (1 - 2 nu)/G; then pressure
-causes no slip and stays Hertzian whatever the shear.
+Bodies are similar if they are identical, both incompressible, or any pair with equal (1 - 2 nu)/G.
+Pressure then causes no slip and stays Hertzian, whatever the shear.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rollnip.closed_forms.hertz import HertzLine, hertz_line
 
 @dataclass(frozen=True, slots=True)
 class Carter:
-    """Steady rolling with partial slip: stick adjoins the leading edge x = a, slip the trailing.
+    """Steady rolling with partial slip: stick at the leading edge x = a, slip at the trailing one.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Carter:
         return (edge - 2.0 * self.stick_half_width, edge)
 
     def shear(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Shear q(x) [MPa] on the upper roller along +x, x [mm] of any shape."""
+        """Return the shear q(x) [MPa] on the upper roller along +x, x [mm] of any shape."""
         centre = self.hertz.half_width - self.stick_half_width
         size = _shear_size(x, self.hertz, self.friction, self.stick_half_width, centre)
         return np.asarray(np.sign(self.traction) * size)
@@ -76,7 +76,7 @@ class Cattaneo:
     stick_half_width: float
 
     def shear(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Shear q(x) [MPa] on the upper body along +x, x [mm] of any shape."""
+        """Return the shear q(x) [MPa] on the upper body along +x, x [mm] of any shape."""
         size = _shear_size(x, self.hertz, self.friction, self.stick_half_width, 0.0)
         return np.asarray(np.sign(self.traction) * size)
 
@@ -84,15 +84,14 @@ class Cattaneo:
 def carter(
     *, load: float, radius: float, contact_modulus: float, friction: float, traction: float
 ) -> Carter:
-    """Rolling of similar cylinders under a given traction.
+    """Return the rolling of similar cylinders under a given traction.
 
     q = mu p0 [sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - (x - d)^2/c^2)], d = a - c, the second term where
     |x - d| <= c;  c = a sqrt(1 - |T|/(mu F));  xi = sign(T) mu (a - c)/R.
 
-    Derivation: traction q makes du_t/dx = (2/E*) (1/pi) pv int q(t)/(t - x) dt, which for a half
-    ellipse of the height q0 and half-width a is -(2/E*) q0 x/a inside it. The two ellipses of q
-    leave the constant -(2/E*) mu p0 d/a = -mu d/R in the stick zone, and stick is
-    xi + du_t/dx = 0.
+    Derivation: shear q causes du_t/dx = (2/E*) (1/pi) pv int q(t)/(t - x) dt, which for a half
+    ellipse of height q0 and half-width a is -(2/E*) q0 x/a inside it. The two ellipses of q leave
+    the constant -(2/E*) mu p0 d/a = -mu d/R in the stick zone, and stick is xi + du_t/dx = 0.
 
     Parameters
     ----------
@@ -138,7 +137,7 @@ def carter(
 def carter_at_creepage(
     *, load: float, radius: float, contact_modulus: float, friction: float, creepage: float
 ) -> Carter:
-    """Rolling of similar cylinders at a given creepage; see `carter`.
+    """Return the rolling of similar cylinders at a given creepage; see `carter`.
 
     c = a - R |xi|/mu; from |xi| = mu a/R on the nip slides: c = 0 and |T| = mu F.
     """
@@ -158,15 +157,15 @@ def carter_at_creepage(
 def cattaneo(
     *, load: float, radius: float, contact_modulus: float, friction: float, traction: float
 ) -> Cattaneo:
-    """Similar cylinders pressed together, then sheared without rolling.
+    """Return the contact of similar cylinders pressed together, then sheared without rolling.
 
-    q = mu p0 [sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - x^2/c^2)], c = a sqrt(1 - |T|/(mu F)).
-    Parameters and errors as in `carter`. The shift of the bodies is not defined in plane strain.
+    q = mu p0 [sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - x^2/c^2)], c = a sqrt(1 - |T|/(mu F)). Parameters
+    and errors as in `carter`. The shift of the bodies is not defined in plane strain.
 
     References
     ----------
-    Cattaneo (1938), Rend. Accad. Naz. Lincei 27; Mindlin (1949), J. Appl. Mech. 16;
-    Johnson (1985), Contact Mechanics, section 7.2.
+    Cattaneo (1938), Rend. Accad. Naz. Lincei 27; Mindlin (1949), J. Appl. Mech. 16; Johnson (1985),
+    Contact Mechanics, section 7.2.
     """
     hertz = hertz_line(load=load, radius=radius, contact_modulus=contact_modulus)
     require_positive("friction", friction)
@@ -183,7 +182,7 @@ def cattaneo(
 def _shear_size(
     x: ArrayLike, hertz: HertzLine, friction: float, stick: float, centre: float
 ) -> NDArray[np.float64]:
-    """Return the half ellipse of full slip less the similar one over the stick zone."""
+    """Return the half ellipse of full slip minus the similar one over the stick zone."""
     inner = half_ellipse(np.asarray(x, dtype=np.float64) - centre, stick)
     outer = half_ellipse(x, hertz.half_width)
     return friction * hertz.peak_pressure * (outer - stick / hertz.half_width * inner)

@@ -13,14 +13,14 @@ from rollnip.closed_forms._common import require_all_positive, require_poisson
 
 @dataclass(frozen=True, slots=True)
 class PlateContact:
-    """Contact of a plate with a cylinder: |x| <= half_width, and a line force at either edge.
+    """Contact of a plate with a cylinder: |x| <= half_width, with a line force at either edge.
 
     Attributes
     ----------
     half_width :
         a [mm]; 0 where the plate touches along one line only.
     edge_force :
-        force at each edge [N/mm]; half of the load where a = 0.
+        force at each edge [N/mm]; half the load where a = 0.
     approach :
         delta [mm].
     peak_pressure :
@@ -33,7 +33,7 @@ class PlateContact:
     peak_pressure: float
 
     def pressure(self, x: ArrayLike, *, radius: float, foundation: float) -> NDArray[np.float64]:
-        """Pressure k (delta - x^2/(2 R)) [MPa] between the edges, without the forces at them."""
+        """Return k (delta - x^2/(2 R)) [MPa] between the edges, without the forces at them."""
         place = np.asarray(x, dtype=np.float64)
         value = foundation * (self.approach - place**2 / (2.0 * radius))
         return np.where(np.abs(place) < self.half_width, value, 0.0)
@@ -42,17 +42,17 @@ class PlateContact:
 def plate_on_foundation(
     *, load: float, radius: float, stiffness: float, foundation: float
 ) -> PlateContact:
-    """Rigid cylinder on a thin plate that rests on, and is bonded to, a bed of springs.
+    """Return the contact of a rigid cylinder with a thin plate bonded to a bed of springs.
 
     D w'''' + k w = p. With lambda = (k/(4 D))^{1/4}, m = F R/(4 D lambda), y = lambda a:
     m <= 1: contact along a line, delta = F lambda/(2 k).
     m > 1: (1 + y)^3 = (3 m - 1)/2, delta = (1 + y)^2/(2 lambda^2 R), edge forces
     2 D lambda (1 + y)/R each, p = k (delta - x^2/(2 R)) between them.
 
-    Derivation: in contact w = delta - x^2/(2 R), so D w'''' = 0; outside w decays as
-    e^{-lambda x} (A cos + B sin); w, w', w'' are continuous at the edge and the jump of D w''' is
-    the edge force. Thin-plate theory: a, 1/lambda and R much larger than the plate is thick; in
-    a layered body the edge forces are spread over about its thickness.
+    Derivation: in contact w = delta - x^2/(2 R), so that D w'''' = 0; outside w decays as
+    e^{-lambda x} (A cos + B sin). w, w', w'' are continuous at the edge, and the jump of D w''' is
+    the edge force. This is thin-plate theory: a, 1/lambda and R must be much larger than the
+    thickness of the plate. In a layered body the edge forces are spread over about this thickness.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def plate_on_foundation(
 
 
 def plate_stiffness(*, modulus: float, poisson: float, thickness: float) -> float:
-    """Bending stiffness D = E h^3/(12 (1 - nu^2)) [N mm] of a plate of the thickness h [mm].
+    """Return the bending stiffness D = E h^3/(12 (1 - nu^2)) [N mm] of a plate of thickness h [mm].
 
     Raises InvalidInputError where a parameter lies outside its range.
     """

@@ -1,4 +1,4 @@
-"""Winkler foundation and Kalker's simplified theory: every point of a surface is its own spring."""
+"""Winkler foundation and Kalker's simplified theory: each point of a surface is a spring."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class WinklerContact:
     approach: float
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) = p0 (1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
+        """Return p(x) = p0 (1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
         return self.peak_pressure * parabola(x, self.half_width)
 
 
@@ -52,7 +52,7 @@ class SimplifiedRolling:
     creepage :
         xi, of the sign of T.
     stick_from :
-        trailing end of the stick zone [mm]; the leading edge where all slips.
+        trailing end of the stick zone [mm]; the leading edge where the whole nip slips.
     """
 
     contact: WinklerContact
@@ -63,7 +63,7 @@ class SimplifiedRolling:
     stick_from: float
 
     def shear(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Shear q(x) [MPa] on the upper roller along +x, x [mm] of any shape."""
+        """Return the shear q(x) [MPa] on the upper roller along +x, x [mm] of any shape."""
         place = np.asarray(x, dtype=np.float64)
         bound = self.friction * self.contact.pressure(place)
         travelled = np.maximum(self.contact.half_width - place, 0.0)
@@ -73,10 +73,10 @@ class SimplifiedRolling:
 
 
 def winkler_contact(*, load: float, radius: float, foundation: float) -> WinklerContact:
-    """Cylinder on a Winkler foundation: p = k (delta - x^2/(2 R)).
+    """Return the contact of a cylinder with a Winkler foundation, p = k (delta - x^2/(2 R)).
 
-    a^3 = 3 F R/(2 k), p0 = k a^2/(2 R), delta = a^2/(2 R). Good for a compressible coating much
-    thinner than the nip (see `thin_compressible_layer`); not for rubber of nu = 0.5.
+    a^3 = 3 F R/(2 k), p0 = k a^2/(2 R), delta = a^2/(2 R). Valid for a compressible coating much
+    thinner than the nip is wide (see `thin_compressible_layer`); not for rubber of nu = 0.5.
 
     Parameters
     ----------
@@ -117,11 +117,11 @@ def simplified_rolling(
     friction: float,
     traction: float,
 ) -> SimplifiedRolling:
-    """Rolling on springs in both directions under a given traction.
+    """Return the rolling on springs in both directions under a given traction.
 
-    u_t = L q; in stick du_t/dx = -xi from q = 0 at the leading edge, so q = xi (a - x)/L until it
-    meets mu p = mu k (a - x)(a + x)/(2 R), at x = a (2 zeta - 1), zeta = |xi| R/(L mu k a).
-    T = mu F [1 - (1 - zeta)^3] sign(xi); from zeta = 1 on the nip slides.
+    u_t = L q. In stick du_t/dx = -xi from q = 0 at the leading edge, so that q = xi (a - x)/L until
+    it meets mu p = mu k (a - x)(a + x)/(2 R), at x = a (2 zeta - 1), zeta = |xi| R/(L mu k a). T =
+    mu F [1 - (1 - zeta)^3] sign(xi); from zeta = 1 on the nip slides.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def simplified_rolling(
     References
     ----------
     Kalker (1973), The simplified theory of rolling contact, Delft Progr. Rep. 1, 1-10, here with
-    the parabolic pressure that normal springs give.
+    the parabolic pressure of normal springs.
     """
     contact = winkler_contact(load=load, radius=radius, foundation=foundation)
     require_all_positive({"flexibility": flexibility, "friction": friction})
@@ -176,7 +176,7 @@ def simplified_rolling_at_creepage(
     friction: float,
     creepage: float,
 ) -> SimplifiedRolling:
-    """Rolling on springs in both directions at a given creepage; see `simplified_rolling`."""
+    """Return the rolling on springs at a given creepage; see `simplified_rolling`."""
     contact = winkler_contact(load=load, radius=radius, foundation=foundation)
     require_all_positive({"flexibility": flexibility, "friction": friction})
     require_finite("creepage", creepage)

@@ -45,7 +45,7 @@ class ViscoelasticStrip:
     _law: _PressureLaw = field(repr=False)
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) [MPa], 0 outside the contact; x [mm] of any shape."""
+        """Return p(x) [MPa], 0 outside the contact; x [mm] of any shape."""
         place = np.asarray(x, dtype=np.float64)
         inside = (place > -self.trailing) & (place < self.leading)
         travelled = np.where(inside, self.leading - place, 0.0)
@@ -54,7 +54,7 @@ class ViscoelasticStrip:
 
 @dataclass(frozen=True, slots=True)
 class _PressureLaw:
-    """Pressure after a path through the nip."""
+    """Pressure as a function of the path through the nip."""
 
     foundation: float
     curvature: float
@@ -62,7 +62,7 @@ class _PressureLaw:
     length: float  # V tau
 
     def pressure(self, path: ArrayLike, leading: float) -> NDArray[np.float64]:
-        """Return p at the distance ``path`` behind the leading edge, before any cut at zero."""
+        """Return p at the distance ``path`` behind the leading edge, which may be negative."""
         path = np.asarray(path, dtype=np.float64)
         times = path / self.length
         memory = leading * -np.expm1(-times) - self.length * times**2 * _lag(times)
@@ -79,15 +79,15 @@ def viscoelastic_strip_of_width(
     relaxation_time: float,
     speed: float,
 ) -> ViscoelasticStrip:
-    """Rolling on a viscoelastic strip whose contact begins at x = leading.
+    """Return the rolling on a viscoelastic strip whose contact begins at x = leading.
 
     With lam = V tau, a = leading, path s = a - x behind the leading edge:
-    p = (k/R) [(a^2 - x^2)/2 + f lam ((a + lam)(1 - e^{-s/lam}) - s)] until p = 0 at x = -trailing:
-    the hereditary integral of the standard linear solid over the indentation
-    (a^2 - x^2)/(2 R), taken from the undisturbed strip ahead.
+    p = (k/R) [(a^2 - x^2)/2 + f lam ((a + lam)(1 - e^{-s/lam}) - s)] until p = 0 at x = -trailing.
+    This is the hereditary integral of the standard linear solid over the indentation (a^2 - x^2)/(2
+    R), starting from the undisturbed strip ahead.
 
-    For a strip much thinner than the nip and compressible (k = E_oed/h), or a true mattress; the
-    same relaxation must hold for k. Not for rubber of nu = 0.5.
+    Valid for a compressible strip much thinner than the nip is wide (k = E_oed/h), or for a true
+    mattress; k must relax in the same way. Not for rubber of nu = 0.5.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def viscoelastic_strip_of_width(
     foundation :
         relaxed foundation modulus k [MPa/mm].
     stiffening_ratio :
-        f = glassy over relaxed modulus less 1, >= 0.
+        f = glassy over relaxed modulus minus 1, >= 0.
     relaxation_time :
         tau [s], at constant strain.
     speed :
@@ -132,9 +132,10 @@ def viscoelastic_strip(
     relaxation_time: float,
     speed: float,
 ) -> ViscoelasticStrip:
-    """Rolling on a viscoelastic strip under a load F [N/mm]; see `viscoelastic_strip_of_width`.
+    """Return the rolling on a viscoelastic strip under a load F [N/mm].
 
-    The leading half-width is found between those of the glassy and of the relaxed strip.
+    The leading half-width lies between those of the glassy and of the relaxed strip; see
+    `viscoelastic_strip_of_width` for the law and the other parameters.
     """
     require_all_positive({"load": load})
     law = _law(radius, foundation, stiffening_ratio, relaxation_time, speed)
@@ -181,7 +182,7 @@ def _contact(law: _PressureLaw, leading: float) -> ViscoelasticStrip:
 
 
 def _path(law: _PressureLaw, leading: float) -> float:
-    """Return the width of the contact: the path after which the pressure is spent."""
+    """Return the width of the contact: the path at which the pressure returns to zero."""
     return float(
         brentq(
             lambda trial: float(law.pressure(trial, leading)),

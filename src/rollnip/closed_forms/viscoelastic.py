@@ -1,4 +1,4 @@
-"""Hunter: a rigid cylinder rolling on a viscoelastic half-space, standard linear solid."""
+"""Hunter: a rigid cylinder rolling on a viscoelastic half-space, a standard linear solid."""
 
 from __future__ import annotations
 
@@ -53,10 +53,10 @@ class Hunter:
     excess: tuple[float, float]
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) [MPa], 0 outside the contact; x [mm] of any shape.
+        """Return p(x) [MPa], 0 outside the contact; x [mm] of any shape.
 
         p/scale = sin(phi) + kappa int_0^phi e^{-kappa (cos t - cos phi)} (r0 + r1 cos t) dt,
-        cos(phi) = (x - centre)/a: the integral is taken numerically, to about 1e-10.
+        cos(phi) = (x - centre)/a. The integral is computed numerically, to about 1e-10.
         """
         half_width = 0.5 * (self.leading + self.trailing)
         centre = 0.5 * (self.leading - self.trailing)
@@ -82,19 +82,19 @@ def hunter(
     relaxation_time: float,
     speed: float,
 ) -> Hunter:
-    """Steady rolling of a rigid cylinder on a half-space of the standard linear solid.
+    """Return the steady rolling of a rigid cylinder on a half-space of the standard linear solid.
 
-    With lam = V tau, lam_c = V tau (1 + f), kappa = a/lam, kappa_c = a/lam_c, I_n = I_n(kappa),
-    K_n = K_n(kappa_c), D = I_0 K_1 + I_1 K_0, and a0 the relaxed Hertz half-width of the load:
+    With lam = V tau, lam_c = V tau (1 + f), kappa = a/lam, kappa_c = a/lam_c, I_n = I_n(kappa), K_n
+    = K_n(kappa_c), D = I_0 K_1 + I_1 K_0, and a0 the relaxed Hertz half-width of the load:
     a0^2/a^2 = 1 + 2 (lam_c - lam) I_1 K_1/(a D)           (half-width a);
     x_m = (lam_c - lam) I_1 K_0/D                          (centre, towards the leading edge).
 
-    Derivation: E*(D) applied to u_z' is 2 (1 - nu^2) times the Hilbert transform of p, and
-    D = -V d/dx, so in contact H(p - lam p') = K (lam_c - x), K = E_r*/(2 R). Hence p - lam p' is
-    (c0 + c1 y + c2 (2 y^2 - 1))/sqrt(1 - y^2) with c1 = K (lam_c - x_m), c2 = -K a/2 and, p being 0
-    at both edges, c0 = F/(pi a). Integrated from the leading edge, p vanishes at the trailing one
+    Derivation: E*(D) applied to u_z' is 2 (1 - nu^2) times the Hilbert transform of p, and D = -V
+    d/dx, so that in contact H(p - lam p') = K (lam_c - x), K = E_r*/(2 R). Hence p - lam p' is (c0
+    + c1 y + c2 (2 y^2 - 1))/sqrt(1 - y^2) with c1 = K (lam_c - x_m), c2 = -K a/2 and, since p is 0
+    at both edges, c0 = F/(pi a). Integrated from the leading edge, p vanishes at the trailing edge
     if c0 I_0 - c1 I_1 + c2 I_2 = 0; u_z' = -x/R at the leading edge, integrated from the
-    undisturbed surface ahead, asks for c0 K_0 + c1 K_1 + c2 K_2 = 0.
+    undisturbed surface ahead, requires c0 K_0 + c1 K_1 + c2 K_2 = 0.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def _terms(size: float, length: float, ratio: float) -> _ContactLengths:
     difference = length * ratio
     bessel_i0, bessel_i1 = float(i0e(kappa)), float(i1e(kappa))
     bessel_k0, bessel_k1 = float(k0e(kappa_creep)), float(k1e(kappa_creep))
-    # ive loses its range far out, where the recurrence loses nothing
+    # ive leaves its range at large arguments, where the recurrence is accurate
     bessel_i2 = float(ive(2, kappa)) if kappa < 1e3 else bessel_i0 - 2.0 * bessel_i1 / kappa
     denominator = bessel_i0 * bessel_k1 + bessel_i1 * bessel_k0
     widening = 2.0 * difference / size * bessel_i1 * bessel_k1 / denominator

@@ -13,12 +13,13 @@ from rollnip.closed_forms._common import require_all_positive
 
 @dataclass(frozen=True, slots=True)
 class WavyContact:
-    """Contact of heights amplitude cos(2 pi x/wavelength) with a half-space.
+    """Contact of a surface with heights amplitude cos(2 pi x/wavelength) with a half-space.
 
     Attributes
     ----------
     mean_pressure : p_m [MPa].
-    full_pressure : p* = pi E* amplitude/wavelength [MPa]; from this mean pressure on all touches.
+    full_pressure : p* = pi E* amplitude/wavelength [MPa], the mean pressure from which the contact
+        is full.
     wavelength : [mm].
     half_width : of the contact on each crest [mm]; half the wavelength in full contact.
     peak_pressure : on the crests [MPa].
@@ -31,7 +32,7 @@ class WavyContact:
     peak_pressure: float
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """p(x) [MPa], x [mm] from a crest, of any shape."""
+        """Return p(x) [MPa], x [mm] from a crest, of any shape."""
         phase = np.pi * np.asarray(x, dtype=float) / self.wavelength
         if self.mean_pressure >= self.full_pressure:
             return np.asarray(self.mean_pressure + self.full_pressure * np.cos(2.0 * phase))
@@ -43,17 +44,17 @@ class WavyContact:
 def wavy_contact(
     *, mean_pressure: float, amplitude: float, wavelength: float, contact_modulus: float
 ) -> WavyContact:
-    """Wavy surface on a smooth half-space, without friction, periodic.
+    """Return the periodic, frictionless contact of a wavy surface with a smooth half-space.
 
-    A pressure p* cos(2 pi x/wavelength) flattens the wave: 2/(E* k) per unit, k the wave number.
-    In partial contact the crests touch over sin^2(pi a/wavelength) = p_m/p*, and
+    A pressure p* cos(2 pi x/wavelength) flattens the wave: 2/(E* k) per unit, k the wave number. In
+    partial contact the crests touch over sin^2(pi a/wavelength) = p_m/p*, and
 
         p = 2 p* cos(pi x/wavelength) sqrt(sin^2(pi a/wavelength) - sin^2(pi x/wavelength)).
 
     Parameters
     ----------
     mean_pressure : p_m over a wavelength [MPa].
-    amplitude : half of the height from valley to crest [mm].
+    amplitude : half the height from valley to crest [mm].
     wavelength : [mm].
     contact_modulus : E* of both bodies [MPa].
 

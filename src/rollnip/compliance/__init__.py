@@ -1,4 +1,4 @@
-"""Compliance of layered coatings in the Fourier domain: pure functions of arrays."""
+"""Compliance of layered coatings in the Fourier domain; pure functions of arrays."""
 
 from rollnip.compliance._across import shear_compliance, shear_fields
 from rollnip.compliance._flat import flat_compliance, half_space_limit

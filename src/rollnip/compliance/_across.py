@@ -1,7 +1,8 @@
 """Compliance of layered coatings to shear across the wave vector: one scalar recursion.
 
 With the displacement u across the wave vector and s = G u' (z towards the core), u'' = k^2 u in
-every layer.  A body below answers u = -c s; over a layer of thickness d
+every layer.  The body below responds by u = -c s, where c is its compliance; on top of a layer of
+thickness d it is
 
     c_top = (c + tanh(k d)/(G k)) / (1 + c G k tanh(k d)).
 """
@@ -25,7 +26,7 @@ def shear_compliance(
     core_modulus: ArrayLike | None = None,
     core_poisson: float = 0.5,
 ) -> Array:
-    """Surface compliance of bonded flat layers to shear across the wave vector.
+    """Return the surface compliance of bonded flat layers to shear across the wave vector.
 
     One layer on a rigid core: tanh(k d)/(G k).  Half-space: 1/(G k).
 
@@ -38,7 +39,7 @@ def shear_compliance(
     -------
     array
         (n,) displacement per unit traction, both across the wave vector [mm/MPa]; real where all
-        moduli are.
+        moduli are real.
 
     Raises
     ------
@@ -65,19 +66,19 @@ def shear_fields(
     core_modulus: ArrayLike | None = None,
     core_poisson: float = 0.5,
 ) -> tuple[Array, Array]:
-    """Displacement and shear stress at depth per unit surface traction across the wave vector.
+    """Return displacement and traction at depth per unit surface traction across the wave vector.
 
     Parameters
     ----------
     k, thickness, modulus, poisson, core_modulus, core_poisson :
         as in ``flat_compliance``, k positive.
     z :
-        depth [mm], within the layers on a rigid core; on an interface the layer above it counts.
+        depth [mm], within the layers on a rigid core; an interface belongs to the layer above it.
 
     Returns
     -------
     tuple
-        (n,) displacement u across the wave vector [mm/MPa] and traction -G u' [1] at that depth,
+        (n,) displacement u across the wave vector [mm/MPa], and traction -G u' [1] at that depth,
         which the medium above exerts on the one below.
 
     Raises
@@ -109,7 +110,7 @@ def shear_fields(
 
 
 def _from_below(stack: Stack, core: Core | None, wave: FloatArray) -> list[Array]:
-    """Compliance at the top of each layer, then of the core."""
+    """Return the compliance at the top of each layer, then that of the core."""
     answer: Array = np.zeros(wave.size)
     if core is not None:
         answer = 2.0 / (core.twice_shear * wave)
@@ -122,15 +123,15 @@ def _from_below(stack: Stack, core: Core | None, wave: FloatArray) -> list[Array
 
 
 def _over(below: Array, stiffness: Array, kd: FloatArray) -> Array:
-    """Compliance over a layer from that below it."""
+    """Return the compliance at the top of a layer from that at its bottom."""
     reach = np.tanh(kd)
     return np.asarray((below + reach / stiffness) / (1.0 + below * stiffness * reach))
 
 
 def _passed(wave: FloatArray, rest: float, depth: float, stiff: Array) -> Array:
-    """Share of the traction on a layer that is left at a height ``rest`` over its bottom.
+    """Return the share of the traction on a layer that is left at height ``rest`` over its bottom.
 
-    (cosh k rest + g sinh k rest)/(cosh k d + g sinh k d), g = G k c of what is below.
+    (cosh k rest + g sinh k rest)/(cosh k d + g sinh k d), where g = G k c of the body below.
     """
     up, whole = np.exp(-2.0 * wave * rest), np.exp(-2.0 * wave * depth)
     above = (1.0 + up) + stiff * (1.0 - up)

@@ -1,9 +1,9 @@
 """Fields inside the layers under given surface tractions, in the Fourier domain.
 
-From the surface down: the tractions at the bottom of a ply follow from those at its top by the
-inverse of a 2x2 matrix whose determinant the minors know exactly.  Inside a ply that is thick to
-the wave, the part decaying from the top and the part decaying from the bottom are kept apart; no
-growing exponential is formed.
+From the surface down, the tractions at the bottom of a ply follow from those at its top by the
+inverse of a 2x2 matrix, whose determinant is known exactly from the minors.  Inside a ply that is
+thick compared with the wavelength, the part that decays from the top and the part that decays from
+the bottom are kept apart; no growing exponential is formed.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ from rollnip.compliance._types import (
 
 Side = Literal["above", "below"]
 _THIN = 1.0
-"""Up to this t a ply is integrated from its top; beyond, decaying parts are kept apart."""
+"""Up to this t a ply is integrated from its top; above it, decaying parts are kept apart."""
 _DEEPEST = 400.0
 _SAME_DEPTH = 1e-12
-"""Relative distance below which a depth is taken to be that of the interface."""
+"""Relative distance below which a depth is taken as that of the interface."""
 
 
 class Ply(NamedTuple):
-    """One medium between two depths; the core is the ply of infinite length.
+    """One medium between two depths; a half-space core is a ply of infinite length.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Ply(NamedTuple):
 
 
 class LayeredBody(NamedTuple):
-    """The plies with the minors at the top of each (then of the core) and the waves."""
+    """The plies, the minors at the top of each (then of the core), and the wave numbers."""
 
     plies: list[Ply]
     tops: list[SurfaceState]
@@ -89,7 +89,7 @@ def flat_body(stack: Stack, core: Core | None) -> LayeredBody:
 
 
 def ring_body(stack: Stack, radius: float) -> LayeredBody:
-    """Return the body of ring layers, the thick ones cut into plies."""
+    """Return the body of ring layers, with thick layers divided into plies."""
     stack = _cut(stack, radius)
     wave = RingWave.of(stack.k * radius)
     bounds = np.concatenate(([0.0], np.cumsum(stack.thickness)))
@@ -110,7 +110,7 @@ def ring_body(stack: Stack, radius: float) -> LayeredBody:
 
 
 def _cut(stack: Stack, radius: float) -> Stack:
-    """Plies of equal log ratio, none above the step of the ring recursion."""
+    """Return layers divided into plies of equal log ratio, at most the step of ring recursion."""
     thickness: list[float] = []
     source: list[int] = []
     for i, (outer, d) in enumerate(
@@ -127,7 +127,7 @@ def _cut(stack: Stack, radius: float) -> Stack:
 
 
 def checked_depths(z: ArrayLike, bottom: float) -> FloatArray:
-    """Depths (nz,) [mm] within the body; those beyond by rounding are put on its bottom."""
+    """Return depths (nz,) [mm] within the body; put those below it by rounding on its bottom."""
     depth = np.asarray(z, dtype=float)
     if depth.ndim != 1 or not np.all((depth >= 0.0) & (depth < inf)):
         raise InvalidInputError("`z` must be one-dimensional, zero or positive and finite.")
@@ -139,7 +139,7 @@ def checked_depths(z: ArrayLike, bottom: float) -> FloatArray:
 def fields_at_depth(
     body: LayeredBody, z: FloatArray, t_x: ComplexArray, t_z: ComplexArray, side: Side
 ) -> ComplexArray:
-    """u_x, u_z, s_xx, s_zz, s_xz at the depths ``z`` under tractions (q, n): (5, q, nz, n)."""
+    """Return u_x, u_z, s_xx, s_zz, s_xz at depths ``z`` under tractions (q, n), (5, q, nz, n)."""
     amplitudes = amplitudes_at_depth(body, z, np.stack((1j * t_x, t_z)), side)
     out = np.ascontiguousarray(amplitudes.transpose(2, 3, 1, 0))
     out[0] *= 1j
@@ -148,9 +148,10 @@ def fields_at_depth(
 
 
 def amplitudes_at_depth(body: LayeredBody, z: FloatArray, traction: Array, side: Side) -> Array:
-    """U, u_z, s_xx, s_zz, S at the depths ``z``, where u_x = i U and s_xz = i S: (n, nz, 5, q).
+    """Return U, u_z, s_xx, s_zz, S at depths ``z``, (n, nz, 5, q), where u_x = i U, s_xz = i S.
 
-    Under the tractions (i t_x, t_z) of shape (2, q, n). Real where they and all moduli are.
+    They are per the tractions (i t_x, t_z) of shape (2, q, n), and real where these and all moduli
+    are real.
     """
     owner = _owners(body, z, side)
     dtype = np.result_type(traction, *(ply.twice_shear for ply in body.plies))
@@ -175,7 +176,7 @@ def amplitudes_at_depth(body: LayeredBody, z: FloatArray, traction: Array, side:
 
 
 def _owners(body: LayeredBody, z: FloatArray, side: Side) -> Array:
-    """Index of the ply of each depth; on an interface the one on the side asked for."""
+    """Return the index of the ply at each depth; on an interface, the one on the given side."""
     if side not in ("above", "below"):
         raise InvalidInputError(f"`side` must be 'above' or 'below', got {side!r}.")
     bounds = np.array([ply.bottom for ply in body.plies])
@@ -198,7 +199,7 @@ def _state_vector(state: SurfaceState, traction: Array) -> Array:
 def _traction_below(
     foot: SurfaceState, head: SurfaceState, traction: Array, ply: Ply, wave: RingWave
 ) -> Array:
-    """(s, q) at the bottom of a ply from those at its top.
+    """Return (s, q) at the bottom of a ply from those at its top.
 
     (s, q)_top = Q (s, q)_bottom, det Q exp(-2t) = ``head.one`` / ``foot.one``, the latter 1.
     """
@@ -215,7 +216,7 @@ def _traction_below(
 
 
 def _scaled_weights(t: FloatArray, wave: RingWave) -> list[FloatArray]:
-    """Weights of exp(t M) exp(-t) for any t."""
+    """Return the weights of exp(t M) exp(-t), for any t."""
     thin = t <= _THIN
     small = thin_weights(np.minimum(t, _THIN), wave)
     decay = np.exp(-t)
@@ -234,7 +235,7 @@ def _fill(
     wave: RingWave,
     ends: tuple[Array, Array | None],
 ) -> None:
-    """Write the fields at the depths ``z`` of one ply into the rows of ``out``."""
+    """Write the fields at depths ``z`` of one ply into the rows of ``out``."""
     top, bottom = ends
     thin = wave.h * ply.length <= _THIN
     scale = ply.twice_shear * wave.h
@@ -257,7 +258,7 @@ Terms = list[tuple[FloatArray, Array]]
 
 
 def _thin_terms(z: FloatArray, ply: Ply, wave: RingWave, top: Array) -> Terms:
-    """Terms of y(z) = exp(-t M) y(top)."""
+    """Return the terms of y(z) = exp(-t M) y(top)."""
     t = wave.h * _distance(z - ply.top, ply.outer)[:, None]
     weights: Weights = thin_weights(t, wave)
     y, zy, my, zmy = basis_of(top, ply.poisson, wave)
@@ -267,10 +268,10 @@ def _thin_terms(z: FloatArray, ply: Ply, wave: RingWave, top: Array) -> Terms:
 def _thick_terms(
     z: FloatArray, ply: Ply, wave: RingWave, top: Array, bottom: Array | None
 ) -> Terms:
-    """Terms of y(z) for a ply that hides its bottom from its top.
+    """Return the terms of y(z) for a ply so thick that top and bottom hardly affect each other.
 
-    exp(-ct) [cosh et + sinh(et)/e (c - M)] times the part of y(top) that decays with depth, and
-    the mirror image times the part of y(bottom) that decays upwards.
+    exp(-ct) [cosh et + sinh(et)/e (c - M)] times the part of y(top) that decays with depth, and the
+    mirror image times the part of y(bottom) that decays upwards.
     """
     terms: Terms = []
     matrix = generator(ply.poisson, wave)
@@ -290,14 +291,14 @@ def _thick_terms(
 
 
 def _distance(below: FloatArray, radius: float) -> FloatArray:
-    """Distance in the coordinate of the ply from its edge at ``radius`` to points ``below`` it."""
+    """Return the ply's coordinate distance from its edge at ``radius`` to points ``below`` it."""
     return below if isinf(radius) else -np.log1p(-below / radius)
 
 
 def _decay_functions(
     distance: FloatArray, ply: Ply, wave: RingWave
 ) -> tuple[FloatArray, FloatArray]:
-    """exp(-ct) cosh(et) and exp(-ct) sinh(et)/e at t = h distance, shape (nz, n)."""
+    """Return exp(-ct) cosh(et) and exp(-ct) sinh(et)/e at t = h distance, (nz, n)."""
     column = distance[:, None]
     decay = np.exp(-(wave.c * wave.h) * column)
     if isinf(ply.outer):
@@ -306,7 +307,7 @@ def _decay_functions(
 
 
 def _combined(terms: Terms, ply: Ply, wave: RingWave, unit: Array, z: FloatArray) -> Array:
-    """Sum the terms into U, u_z, s_xx, s_zz, S: (n, nz, 5, q)."""
+    """Return the sum of the terms for U, u_z, s_xx, s_zz, S, (n, nz, 5, q)."""
     functions = np.stack([function for function, _ in terms], axis=-1).transpose(1, 0, 2)
     parts = [
         (y[0], y[1], hoop_stress(y, ply.poisson, wave) * unit, y[3] * unit, y[2] * unit)
@@ -314,10 +315,10 @@ def _combined(terms: Terms, ply: Ply, wave: RingWave, unit: Array, z: FloatArray
     ]
     coefficients = np.ascontiguousarray(np.array(parts).transpose(3, 0, 1, 2))
     n, _, _, q = coefficients.shape
-    # The functions are real: complex coefficients are twice as many real ones.
+    # The functions are real, so that complex coefficients count as twice as many real ones.
     columns = coefficients.reshape(n, len(terms), -1).view(float)
     fields: Array = (functions @ columns).view(coefficients.dtype).reshape(n, z.size, 5, q)
-    if not isinf(ply.outer):  # stresses come times the radius
+    if not isinf(ply.outer):  # the stresses were multiplied by the radius
         radii = np.ones((z.size, 5, q))
         radii[:, 2:] = (ply.outer - (z - ply.top))[:, None, None]
         fields /= radii

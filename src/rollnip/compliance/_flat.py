@@ -1,6 +1,6 @@
-"""Compliance of flat layers: the minors of the two solutions, climbed from the core to the surface.
+"""Compliance of flat layers: the minors of two solutions, propagated from the core to the surface.
 
-With t = k (distance climbed), b = nu/(1-nu) and m = 1 + b = 1/(1-nu), the layer equations
+With t = k (distance upwards), b = nu/(1-nu) and m = 1 + b = 1/(1-nu), the layer equations
 
     U' = W - 2s,  W' = -bU - (1-b)q,  s' = bq - mU,  q' = -s      (d/dt upwards)
 
@@ -34,9 +34,9 @@ from rollnip.compliance._types import (
 )
 
 _DEEPEST = 400.0
-"""Beyond this k d the layer below is invisible in double precision: exp(-2 * 400) = 0."""
+"""Above this k d the layer below has no effect in double precision: exp(-2 * 400) = 0."""
 _SHALLOWEST = 1e-200
-"""At this k d all powers that vanish in the limit k -> 0 underflow to zero: the exact limit."""
+"""At this k d all powers that vanish as k -> 0 underflow to zero, which gives the exact limit."""
 
 
 def flat_compliance(
@@ -47,7 +47,7 @@ def flat_compliance(
     core_modulus: ArrayLike | None = None,
     core_poisson: float = 0.5,
 ) -> SurfaceCompliance:
-    """Surface compliance of bonded flat layers in plane strain.
+    """Return the surface compliance of bonded flat layers in plane strain.
 
     One layer on a rigid core: C_zz = 2(1-nu^2)/(E k) (2K sinh 2kd - 4kd)/(2K cosh 2kd + 1 + K^2 +
     4k^2d^2), K = 3 - 4nu.  Stable for every k d, Poisson ratio and modulus contrast.
@@ -99,7 +99,7 @@ class FlatStates(NamedTuple):
 
 
 def climb_flat(stack: Stack, core: Core | None) -> FlatStates:
-    """Minors at the top of every layer, from the core upwards."""
+    """Return the minors at the top of every layer, propagated from the core upwards."""
     state = RIGID if core is None else half_space_state(core.poisson)
     shear = np.asarray(1.0) if core is None else core.twice_shear
     below = shear
@@ -113,7 +113,7 @@ def climb_flat(stack: Stack, core: Core | None) -> FlatStates:
 
 
 def climb_layer(state: SurfaceState, t: FloatArray, poisson: float) -> SurfaceState:
-    """Minors a distance t/k above ``state`` within one medium, times exp(-2t)."""
+    """Return the minors a distance t/k above ``state`` within one medium, times exp(-2t)."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
     a = (1.0 - 2.0 * poisson) / (1.0 - poisson)  # 1 - b, exactly 0 at nu = 0.5
@@ -149,7 +149,7 @@ class ClimbingFunctions(NamedTuple):
 
 
 def climbing_functions(t: FloatArray) -> ClimbingFunctions:
-    """sinh^2 t, (sinh 2t - 2t)/4 and (sinh^2 t - t^2)/4, all times exp(-2t), for t >= 0."""
+    """Return sinh^2 t, (sinh 2t - 2t)/4 and (sinh^2 t - t^2)/4, all times exp(-2t), for t >= 0."""
     t = np.minimum(t, _DEEPEST)
     decay = np.exp(-2.0 * t)
     sinh2 = 0.25 * np.expm1(-2.0 * t) ** 2
@@ -165,7 +165,7 @@ def climbing_functions(t: FloatArray) -> ClimbingFunctions:
 
 
 def _nested(x2: FloatArray, first_factor: int) -> FloatArray:
-    """1 + x2/(j(j+1)) (1 + x2/((j+2)(j+3)) (1 + ...)), j the first factor; x2 <= 1."""
+    """Return 1 + x2/(j(j+1)) (1 + x2/((j+2)(j+3)) (1 + ...)), j the first factor; x2 <= 1."""
     total = np.ones_like(x2)
     for j in range(first_factor + 14, first_factor - 1, -2):
         total = 1.0 + total * x2 * (1.0 / (j * (j + 1)))
@@ -173,7 +173,10 @@ def _nested(x2: FloatArray, first_factor: int) -> FloatArray:
 
 
 def compliance_of(state: SurfaceState, stress_unit: Array) -> SurfaceCompliance:
-    """Compliance from the minors, ``stress_unit`` = 2 G k [MPa/mm]; C_xz = i D_xz for k > 0."""
+    """Return the compliance from the minors; ``stress_unit`` = 2 G k [MPa/mm].
+
+    C_xz = i D_xz for k > 0.
+    """
     scale = 1.0 / (stress_unit * state.one)
     return SurfaceCompliance(
         xx=np.asarray(state.xx * scale, dtype=complex),
@@ -183,7 +186,7 @@ def compliance_of(state: SurfaceState, stress_unit: Array) -> SurfaceCompliance:
 
 
 def half_space_limit(modulus: ArrayLike, poisson: float) -> tuple[Array, Array]:
-    """Coefficients of the half-space: C_xx = C_zz = A/k, C_xz = i B/k for k > 0.
+    """Return the coefficients A, B of a half-space: C_xx = C_zz = A/k, C_xz = i B/k for k > 0.
 
     A = 2(1-nu^2)/E, B = (1+nu)(1-2nu)/E (Johnson 1985, 2.7).
 
@@ -212,14 +215,14 @@ def half_space_limit(modulus: ArrayLike, poisson: float) -> tuple[Array, Array]:
 
 
 def floored(k: FloatArray, thickness: FloatArray, core: Core | None) -> FloatArray:
-    """Wave numbers kept so far from 0 that 0/0 never forms; the limit is exact in double."""
+    """Return wave numbers kept so far from 0 that 0/0 never occurs; the limit is still exact."""
     if core is not None or k.size == 0:
         return k
     return np.maximum(k, _SHALLOWEST / np.sum(thickness))
 
 
 def require_finite_answer(stack: Stack, core: Core | None) -> None:
-    """Refuse a bare rigid core, and k = 0 on a half-space, which sinks without end."""
+    """Refuse a bare rigid core, and k = 0 on a half-space, whose displacement is infinite."""
     if core is None and stack.thickness.size == 0:
         raise InvalidInputError("`thickness` must have a layer when the core is rigid.")
     if core is not None and np.any(stack.k == 0.0):

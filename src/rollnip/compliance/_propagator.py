@@ -1,14 +1,14 @@
 """The layer equations of flat and ring layers as one constant matrix M, and its exponential.
 
-State y = (U, W, s, q): u_x = i U, u_z = W, s_xz = i s, s_zz = q, stresses in units of 2 G h/r on
-a ring, of 2 G h where flat.  With t, measured upwards, h log r on a ring and h times the distance
-where flat,
+State y = (U, W, s, q): u_x = i U, u_z = W, s_xz = i s, s_zz = q, stresses in units of 2 G h/r on a
+ring, of 2 G h where flat.  With t, measured upwards, equal to h log r on a ring and to h times the
+distance where flat,
 
     U' = e U + c W - 2s                        s' = -e s + c b q - c m (e W + c U)
     W' = -b (e W + c U) - (1-b) q              q' = e b q - c s - e m (e W + c U)
 
-b = nu/(1-nu), m = 1/(1-nu).  Ring: h = max(n, 1), c = n/h, e = 1/h.  Flat: h = k, c = 1, e = 0.
-The eigenvalues are +-(c + e) and +-(c - e); on the pair that grows upwards (M - c)^2 = e^2.
+b = nu/(1-nu), m = 1/(1-nu).  Ring: h = max(n, 1), c = n/h, e = 1/h.  Flat: h = k, c = 1, e = 0. The
+eigenvalues are +-(c + e) and +-(c - e); on the pair that grows upwards (M - c)^2 = e^2.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _SMALL = 1e-8
 
 
 def generator(poisson: float, wave: RingWave) -> FloatArray:
-    """M (4, 4, n)."""
+    """Return M, (4, 4, n)."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
     a = (1.0 - 2.0 * poisson) / (1.0 - poisson)  # 1 - b, exactly 0 at nu = 0.5
@@ -41,12 +41,12 @@ def generator(poisson: float, wave: RingWave) -> FloatArray:
 
 
 def slope(y: Array, matrix: FloatArray) -> Array:
-    """M y, for y of shape (4, ..., n)."""
+    """Return M y, for y of shape (4, ..., n)."""
     return np.asarray(np.einsum("ijn,j...n->i...n", matrix, y))
 
 
 def hoop_stress(y: Array, poisson: float, wave: RingWave) -> Array:
-    """s_xx in the units of the state: b q - m (e W + c U), the constitutive law."""
+    """Return s_xx in the units of the state, b q - m (e W + c U), by the constitutive law."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
     return np.asarray(b * y[3] - m * (wave.e * y[1] + wave.c * y[0]))
@@ -62,7 +62,7 @@ class Weights(NamedTuple):
 
 
 def thin_weights(t: FloatArray, wave: RingWave) -> Weights:
-    """Weights for t <= 1: Newton's interpolation in M^2 between (c + e)^2 and (c - e)^2."""
+    """Return the weights for t <= 1, by Newton interpolation between (c + e)^2 and (c - e)^2."""
     c, e = np.maximum(wave.c, _SMALL), np.maximum(wave.e, _SMALL)
     sum_, difference = wave.c + wave.e, wave.c - wave.e
     y, x = sum_ * t, difference * t
@@ -76,7 +76,7 @@ def thin_weights(t: FloatArray, wave: RingWave) -> Weights:
 
 
 def thick_weights(t: FloatArray, wave: RingWave) -> Weights:
-    """Weights times exp(-t) for t > 1, where c = 1 and e < 1/2."""
+    """Return the weights times exp(-t) for t > 1, where c = 1 and e < 1/2."""
     e = np.maximum(wave.e, _SMALL)
     decay = np.exp(-2.0 * t)
     cosh, sinh = 0.5 * (1.0 + decay), 0.5 * (1.0 - decay)
@@ -91,7 +91,7 @@ def thick_weights(t: FloatArray, wave: RingWave) -> Weights:
 
 
 def basis_of(y: Array, poisson: float, wave: RingWave) -> tuple[Array, Array, Array, Array]:
-    """y, Z y, M y and Z M y, in the order of ``Weights``."""
+    """Return y, Z y, M y and Z M y, in the order of ``Weights``."""
     square, matrix = (wave.c + wave.e) ** 2, generator(poisson, wave)
     once = slope(y, matrix)
     twice = slope(once, matrix)
@@ -100,9 +100,10 @@ def basis_of(y: Array, poisson: float, wave: RingWave) -> tuple[Array, Array, Ar
 
 
 def parts_of(y: Array, matrix: FloatArray, wave: RingWave) -> tuple[Array, Array, Array]:
-    """sgn(M) y, M y and |M| y for n > 2: the first is +y where y grows upwards, -y where it decays.
+    """Return sgn(M) y, M y and |M| y for n > 2.
 
-    sgn(M) = M/|M| and |M| = (M^2)^(1/2) as polynomials in M.
+    The first is +y where y grows upwards and -y where it decays. sgn(M) = M/|M| and |M| =
+    (M^2)^(1/2) are computed as polynomials in M.
     """
     c2, e2 = wave.c**2, wave.e**2
     once = slope(y, matrix)

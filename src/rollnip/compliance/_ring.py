@@ -1,4 +1,4 @@
-"""Compliance of curved layers: the minors of a ring, climbed from the core to the surface.
+"""Compliance of ring layers: the minors of two solutions, propagated from the core to the surface.
 
 Harmonics exp(i n theta), n = k R >= 0; u_t = i U, u_r = -W, r s_rt = -i s, r s_rr = q, stresses in
 units of 2 G.  With b = nu/(1-nu), m = 1 + b and ' = r d/dr the polar equations of a ring are
@@ -6,12 +6,12 @@ units of 2 G.  With b = nu/(1-nu), m = 1 + b and ' = r d/dr the polar equations 
     U' = U + nW - 2s                    s' = -s + n (bq - mW - mnU)
     W' = -b (W + nU) - (1-b) q          q' = bq - ns - m (W + nU)
 
-Their minors (theory of ``SurfaceState``), scaled by powers of h = max(n, 1) as
+Their minors (see ``SurfaceState``), scaled by powers of h = max(n, 1) as
 
     det = h^2 (UW),  xz = h (Us) = -h (Wq),  xx = -h (Uq),  zz = h (Ws),  one = (sq),
 
-obey a constant 5x5 system in t = h log r, written in ``_generator``: eigenvalues 0, +-2/h, +-2n/h.
-With 1/h = 0 and n/h = 1 it is that of the flat layer.
+obey a constant 5x5 system in t = h log r, given in ``_generator``, with the eigenvalues 0, +-2/h
+and +-2n/h. With 1/h = 0 and n/h = 1 it is the system of the flat layer.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ from rollnip.compliance._types import (
 )
 
 _DEEPEST = 400.0
-"""Beyond this t the layer below is invisible in double precision: exp(-2 * 400) = 0."""
+"""Above this t the layer below has no effect in double precision: exp(-2 * 400) = 0."""
 LARGEST_STEP = 0.5
-"""Largest log ratio of radii climbed at once; keeps the eigenvalues +-2 apart from large ones."""
+"""Largest log ratio of radii in one step; it keeps the eigenvalues +-2 apart from large ones."""
 _INVERSE_FACTORIALS = np.array([1.0 / factorial(n) for n in range(32)])
 _FIRST_SERIES = np.stack([_INVERSE_FACTORIALS[f::2][:9] for f in (2, 3)])
 """Coefficients of x^(2j) in (cosh x - 1)/x^2 and (sinh x - x)/x^3, enough for x <= 1."""
 _TERMS = 12
-"""Of the series of ``symmetric_series``."""
+"""Number of terms of the series in ``symmetric_series``."""
 
 
 def ring_compliance(
@@ -51,10 +51,10 @@ def ring_compliance(
     modulus: ArrayLike,
     poisson: ArrayLike,
 ) -> SurfaceCompliance:
-    """Surface compliance of bonded ring layers on a rigid core in plane strain.
+    """Return the surface compliance of bonded ring layers on a rigid core in plane strain.
 
-    The exact polar counterpart of ``flat_compliance``, which it approaches as thickness/radius -> 0
-    (difference of first order in thickness/radius).  u_x = u_t, u_z = -u_r, t_x = s_rt and
+    The exact polar counterpart of ``flat_compliance``, to which it tends as thickness/radius -> 0
+    (the difference is of first order in thickness/radius).  u_x = u_t, u_z = -u_r, t_x = s_rt and
     t_z = -s_rr at the outer radius; fields ~ exp(i n theta) = exp(i k x).
 
     Parameters
@@ -91,12 +91,12 @@ def ring_compliance(
 
 
 class RingWave(NamedTuple):
-    """Numbers that depend on the harmonic alone.
+    """Quantities that depend on the harmonic alone.
 
     Attributes
     ----------
     n : harmonic, >= 0
-    h : max(n, 1), the scale of wave number
+    h : max(n, 1), the scale of wave numbers
     c : n/h
     e : 1/h
     """
@@ -108,7 +108,7 @@ class RingWave(NamedTuple):
 
     @classmethod
     def of(cls, n: FloatArray) -> RingWave:
-        """Scales of the harmonics ``n``."""
+        """Return the scales of the harmonics ``n``."""
         h = np.maximum(n, 1.0)
         return cls(n, h, n / h, 1.0 / h)
 
@@ -116,7 +116,7 @@ class RingWave(NamedTuple):
 def checked_ring(
     k: ArrayLike, radius: float, thickness: ArrayLike, modulus: ArrayLike, poisson: ArrayLike
 ) -> Stack:
-    """Convert and check the arguments of ring layers."""
+    """Return the checked and converted arguments of ring layers."""
     stack = checked_stack(k, thickness, modulus, poisson)
     require_positive("radius", radius)
     if stack.thickness.size == 0:
@@ -130,7 +130,7 @@ def checked_ring(
 
 
 def climb_ring(stack: Stack, radius: float, wave: RingWave) -> list[SurfaceState]:
-    """Minors at the top of every layer (then of the core), each in units of the medium there."""
+    """Return the minors at the top of every layer (then the core), in units of the medium there."""
     outer = outer_radii(stack.thickness, radius)
     state = RIGID
     below = stack.twice_shear[-1]
@@ -145,7 +145,7 @@ def climb_ring(stack: Stack, radius: float, wave: RingWave) -> list[SurfaceState
 
 
 def outer_radii(thickness: FloatArray, radius: float) -> list[float]:
-    """Outer radius of each layer [mm]."""
+    """Return the outer radius of each layer [mm]."""
     above = np.concatenate(([0.0], np.cumsum(thickness)[:-1]))
     return [float(radius - depth) for depth in above]
 
@@ -153,7 +153,10 @@ def outer_radii(thickness: FloatArray, radius: float) -> list[float]:
 def climb_ring_layer(
     state: SurfaceState, log_ratio: float, poisson: float, wave: RingWave
 ) -> SurfaceState:
-    """Minors at ``log_ratio`` = log(r/r_0) above ``state`` within one medium, up to a factor."""
+    """Return the minors at log(r/r_0) = ``log_ratio`` above ``state``, up to a factor.
+
+    The medium in between is one layer.
+    """
     steps = max(1, ceil(log_ratio / LARGEST_STEP))
     weights = _power_weights(np.minimum(wave.h * (log_ratio / steps), _DEEPEST), wave)
     generator = _generator(poisson, wave)
@@ -165,10 +168,10 @@ def climb_ring_layer(
 def _climb_step(
     state: SurfaceState, weights: tuple[FloatArray, ...], generator: FloatArray
 ) -> SurfaceState:
-    """exp(t L) state = sum of weights * L^j state, j = 0..4."""
+    """Return exp(t L) state, as the sum of weights * L^j state, j = 0..4."""
     parts = [np.asarray(part) for part in state]
     is_complex = any(np.iscomplexobj(part) for part in parts)
-    # Weights and L are real: the imaginary part of a state, if any, climbs beside the real one.
+    # Weights and L are real, so that real and imaginary parts of a state are propagated apart.
     power = np.empty((5, 2 if is_complex else 1, weights[0].size))
     for row, part in zip(power, parts, strict=True):
         row[0] = part.real
@@ -183,7 +186,7 @@ def _climb_step(
 
 
 def _generator(poisson: float, wave: RingWave) -> FloatArray:
-    """L (5, 5, n), d(state)/dt = L state with respect to t = h log r of the scaled minors."""
+    """Return L (5, 5, n), where d(state)/dt = L state for the scaled minors and t = h log r."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
     a = (1.0 - 2.0 * poisson) / (1.0 - poisson)  # 1 - b, exactly 0 at nu = 0.5
@@ -200,11 +203,11 @@ def _generator(poisson: float, wave: RingWave) -> FloatArray:
 
 
 def _power_weights(t: FloatArray, wave: RingWave) -> tuple[FloatArray, ...]:
-    """Weights of L^0..L^4 in exp(t L) exp(-2t), L having the eigenvalues 0, +-2 and +-2 low.
+    """Return the weights of L^0..L^4 in exp(t L) exp(-2t), L with eigenvalues 0, +-2, +-2 low.
 
-    Newton's interpolation of cosh and sinh in L^2: with x = 2 t low <= y = 2 t the divided
-    differences [0, x^2], [0, x^2, y^2] of cosh sqrt and of sinh sqrt / sqrt, and
-    L^5 = 4(1 + low^2) L^3 - 16 low^2 L.
+    Newton interpolation of cosh and sinh in L^2: with x = 2 t low <= y = 2 t these are the divided
+    differences [0, x^2], [0, x^2, y^2] of cosh sqrt and of sinh sqrt / sqrt, and L^5 = 4(1 + low^2)
+    L^3 - 16 low^2 L.
     """
     low2 = (np.minimum(wave.n, 1.0) * wave.e) ** 2
     t2 = t * t
@@ -222,7 +225,7 @@ def _power_weights(t: FloatArray, wave: RingWave) -> tuple[FloatArray, ...]:
 
 
 def _first_differences(x2: FloatArray) -> FloatArray:
-    """(cosh x - 1)/x^2 and (sinh x - x)/x^3 for x <= 1, from their series; shape (2, n)."""
+    """Return (cosh x - 1)/x^2 and (sinh x - x)/x^3 for x <= 1, from their series, (2, n)."""
     powers = np.ones((_FIRST_SERIES.shape[1], x2.size))
     for j in range(1, len(powers)):
         np.multiply(powers[j - 1], x2, out=powers[j])
@@ -232,7 +235,10 @@ def _first_differences(x2: FloatArray) -> FloatArray:
 def _second_differences(
     y: FloatArray, x2: FloatArray, decay: FloatArray, even1: FloatArray, odd1: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """[0, x^2, y^2] of cosh sqrt and sinh sqrt / sqrt, times exp(-y), for x <= 1 and x <= y."""
+    """Return [0, x^2, y^2] of cosh sqrt and sinh sqrt / sqrt, times exp(-y).
+
+    They hold for x <= 1 and x <= y.
+    """
     thick = np.maximum(y, 2.0)
     span = 1.0 / (thick * thick - x2)
     even = (0.5 * (np.expm1(-y) / thick) ** 2 - decay * even1) * span
@@ -247,10 +253,10 @@ def _second_differences(
 def symmetric_series(
     x2: FloatArray, y2: FloatArray, firsts: tuple[int, ...]
 ) -> tuple[FloatArray, ...]:
-    """Sum of H_j/(2j + f)! for each f of ``firsts``, H_j = sum of x^(2i) y^(2j-2i), i = 0..j.
+    """Return sum H_j/(2j + f)! for each f of ``firsts``, H_j = sum of x^(2i) y^(2j-2i), i = 0..j.
 
-    The divided difference between x^2 and y^2 of the tail of cosh sqrt (f even) or
-    sinh sqrt / sqrt (f odd); complete to double precision for x <= y <= 2.
+    It is the divided difference between x^2 and y^2 of the tail of cosh sqrt (f even) or sinh sqrt
+    / sqrt (f odd), complete to double precision for x <= y <= 2.
     """
     symmetric = np.ones((_TERMS, *x2.shape))
     power = np.ones_like(x2)

@@ -1,4 +1,4 @@
-"""The layers as the recursions want them: checked once, one modulus per layer and wave number."""
+"""The layers in the form that the recursions need: checked, with one modulus per layer and wave."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Core(NamedTuple):
 def checked_stack(
     k: ArrayLike, thickness: ArrayLike, modulus: ArrayLike, poisson: ArrayLike
 ) -> Stack:
-    """Convert and check the arguments that flat and ring layers share."""
+    """Return the checked and converted arguments that flat and ring layers share."""
     wave = np.asarray(k, dtype=float)
     depth = np.asarray(thickness, dtype=float)
     ratio = np.asarray(poisson, dtype=float)
@@ -53,7 +53,7 @@ def checked_stack(
 
 
 def checked_core(modulus: ArrayLike | None, poisson: float, size: int) -> Core | None:
-    """Convert and check the half-space below the layers; None is a rigid core."""
+    """Return the checked and converted half-space below the layers; None for a rigid core."""
     if modulus is None:
         return None
     young = np.asarray(modulus)
@@ -65,7 +65,7 @@ def checked_core(modulus: ArrayLike | None, poisson: float, size: int) -> Core |
 
 
 def _twice_shear(modulus: ArrayLike, poisson: FloatArray, size: int) -> list[Array]:
-    """2 G of each layer from Young's modulus E: (m,) or (m, n)."""
+    """Return 2 G of each layer from Young's modulus E, (m,) or (m, n)."""
     young = np.asarray(modulus)
     layers = poisson.size
     if young.shape not in ((layers,), (layers, size)):

@@ -1,4 +1,4 @@
-"""Public functions of the fields at depth: flat and ring layers, given or unit tractions."""
+"""Public functions for fields at depth: flat and ring layers, given or unit tractions."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ def flat_fields(
     *,
     side: Side = "above",
 ) -> LayerFields:
-    """Fields at depth in flat layers under the surface tractions (t_x, t_z) exp(i k x).
+    """Return the fields at depth in flat layers under surface tractions (t_x, t_z) exp(i k x).
 
-    s_xz(0) = -t_x and s_zz(0) = -t_z.  Stable at every k z; continuous across interfaces but for
-    s_xx, which follows from the constitutive law of its own layer.
+    s_xz(0) = -t_x and s_zz(0) = -t_z.  Stable at every k z. Continuous across interfaces except for
+    s_xx, which follows from the constitutive law of each layer.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def flat_fields(
     t_x, t_z :
         (n,) or scalar transformed tractions [MPa], complex, along x and inwards.
     side :
-        the layer a depth on an interface belongs to: the one "above" it or "below" it.
+        the layer to which a depth on an interface belongs: the one "above" it or "below" it.
 
     Returns
     -------
@@ -79,7 +79,9 @@ def flat_transfer(
     *,
     side: Side = "above",
 ) -> DepthTransfer:
-    """Fields at depth in flat layers per unit surface traction: ``flat_fields`` of (1, 0), (0, 1).
+    """Return the fields at depth in flat layers per unit surface traction.
+
+    They are ``flat_fields`` under (1, 0) and under (0, 1).
 
     Parameters
     ----------
@@ -106,7 +108,9 @@ def flat_amplitudes(
     modulus: ArrayLike,
     poisson: ArrayLike,
 ) -> Array:
-    """Fields at depth in flat layers on a rigid core, without the factors i: cheaper, often real.
+    """Return the fields at depth in flat layers on a rigid core, without the factors i.
+
+    They take less time than ``flat_transfer`` and are real for elastic layers.
 
     Parameters
     ----------
@@ -116,8 +120,8 @@ def flat_amplitudes(
     Returns
     -------
     array
-        (n, nz, 5, 2): u_x/i, u_z [mm/MPa], s_xx, s_zz, s_xz/i [1], each per unit i t_x and per
-        unit t_z; real where all moduli are.
+        (n, nz, 5, 2): u_x/i, u_z [mm/MPa], s_xx, s_zz, s_xz/i [1], each per unit i t_x and per unit
+        t_z; real where all moduli are real.
 
     Raises
     ------
@@ -139,7 +143,7 @@ def ring_fields(
     *,
     side: Side = "above",
 ) -> LayerFields:
-    """Fields at depth in ring layers under the surface tractions (t_x, t_z) exp(i k x).
+    """Return the fields at depth in ring layers under surface tractions (t_x, t_z) exp(i k x).
 
     x = radius * theta at every depth: fields vary as exp(i n theta), n = k radius.
 
@@ -152,13 +156,13 @@ def ring_fields(
     t_x, t_z :
         (n,) or scalar transformed tractions [MPa], complex: s_rt and -s_rr at the outer radius.
     side :
-        the layer a depth on an interface belongs to: the one "above" it or "below" it.
+        the layer to which a depth on an interface belongs: the one "above" it or "below" it.
 
     Returns
     -------
     LayerFields
-        (nz, n) complex arrays u_x = u_t, u_z = -u_r [mm], s_xx = s_tt, s_zz = s_rr,
-        s_xz = -s_rt [MPa].
+        (nz, n) complex arrays u_x = u_t, u_z = -u_r [mm], s_xx = s_tt, s_zz = s_rr, s_xz = -s_rt
+        [MPa].
 
     Raises
     ------
@@ -183,7 +187,9 @@ def ring_transfer(
     *,
     side: Side = "above",
 ) -> DepthTransfer:
-    """Fields at depth in ring layers per unit surface traction: ``ring_fields`` of (1, 0), (0, 1).
+    """Return the fields at depth in ring layers per unit surface traction.
+
+    They are ``ring_fields`` under (1, 0) and under (0, 1).
 
     Parameters
     ----------
@@ -212,7 +218,7 @@ def ring_amplitudes(
     modulus: ArrayLike,
     poisson: ArrayLike,
 ) -> Array:
-    """Fields at depth in ring layers without the factors i, as ``flat_amplitudes``.
+    """Return the fields at depth in ring layers without the factors i, as ``flat_amplitudes``.
 
     Parameters
     ----------
@@ -222,7 +228,7 @@ def ring_amplitudes(
     Returns
     -------
     array
-        (n, nz, 5, 2), as ``flat_amplitudes``.
+        (n, nz, 5, 2), as in ``flat_amplitudes``.
 
     Raises
     ------

@@ -65,14 +65,14 @@ class DepthTransfer(NamedTuple):
 
 
 class SurfaceState(NamedTuple):
-    """The 2x2 minors of the two solutions a body admits, at one depth.
+    """The 2x2 minors of the two solutions that a body admits, at one depth.
 
-    With u_x = i U, s_xz = i S (k > 0) and stresses measured in units of 2 G k, the body below
-    answers (U, u_z) = -D (S, s_zz), D = [[xx, xz], [xz, zz]] / one; ``det`` is det D * one.
+    With u_x = i U, s_xz = i S (k > 0) and stresses in units of 2 G k, the body below responds by
+    (U, u_z) = -D (S, s_zz), D = [[xx, xz], [xz, zz]] / one; ``det`` is det D * one.
 
-    The minors are carried instead of D because they obey a *linear* equation in depth: no growing
-    and decaying solutions are subtracted from each other, in thin layers nor in thick ones
-    (Dunkin 1965, Bull. Seism. Soc. Am. 55, 335-358, for elastic waves).
+    The minors are propagated instead of D because they obey a *linear* equation in depth: growing
+    and decaying solutions are never subtracted from each other, in thin or in thick layers (Dunkin
+    1965, Bull. Seism. Soc. Am. 55, 335-358, for elastic waves).
     """
 
     det: Array | float
@@ -86,7 +86,7 @@ RIGID = SurfaceState(det=0.0, xz=0.0, xx=0.0, zz=0.0, one=1.0)
 
 
 def half_space_state(poisson: float) -> SurfaceState:
-    """Minors of an elastic half-space in units of its own modulus: theory of plane strain."""
+    """Return the minors of an elastic half-space in plane strain, in units of its own modulus."""
     return SurfaceState(
         det=3.0 - 4.0 * poisson,
         xz=1.0 - 2.0 * poisson,
@@ -97,7 +97,7 @@ def half_space_state(poisson: float) -> SurfaceState:
 
 
 def rescaled(state: SurfaceState, ratio: Array | float) -> SurfaceState:
-    """Normalise to ``one`` = 1 and measure stresses in a modulus ``ratio`` times the former one."""
+    """Return the minors with ``one`` = 1, in stress units of ``ratio`` times the former modulus."""
     factor = ratio / state.one
     return SurfaceState(
         det=state.det * factor * ratio,

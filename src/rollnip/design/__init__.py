@@ -1,4 +1,4 @@
-"""Design: wanted results, best values, tolerances, Pareto fronts."""
+"""Design: wanted results, optima, tolerances, Pareto fronts."""
 
 from rollnip.design.aims import AtLeast, AtMost, LeastChange, LimitKept, Maximise, Minimise
 from rollnip.design.distributions import (

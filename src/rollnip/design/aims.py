@@ -1,4 +1,4 @@
-"""Aims of a design: a result to make small or large, and limits that results must keep."""
+"""Aims of a design: a result to minimise or maximise, and limits that results must keep."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from rollnip._units import format_quantity
 from rollnip.design.quantities import QUANTITIES, read_result, require_quantity
 
 _DIGITS = 5
-_LARGEST_STEP = 0.2  # relative, of the number that a result is to be independent of
-_ACTIVE = 1e-3  # relative distance from a limit below which the limit is active
+_LARGEST_STEP = 0.2  # largest relative step of the number on which a result is to depend little
+_ACTIVE = 1e-3  # relative distance from a limit, below which the limit is active
 
 
 @dataclass(frozen=True, slots=True)
 class _Extreme:
-    """A result of a case that is to be as small or as large as can be."""
+    """A result of a case that is to be as small or as large as possible."""
 
     sense: ClassVar[Literal["minimise", "maximise"]]
 
@@ -33,19 +33,19 @@ class _Extreme:
 
     @property
     def solves(self) -> int:
-        """Number of solves of a case."""
+        """Number of solves for one case."""
         return 1
 
 
 class Minimise(_Extreme):
-    """The result that is to be as small as can be."""
+    """The result that is to be as small as possible."""
 
     __slots__ = ()
     sense = "minimise"
 
 
 class Maximise(_Extreme):
-    """The result that is to be as large as can be."""
+    """The result that is to be as large as possible."""
 
     __slots__ = ()
     sense = "maximise"
@@ -53,15 +53,15 @@ class Maximise(_Extreme):
 
 @dataclass(frozen=True, slots=True)
 class LeastChange:
-    """The result that is to depend as little as can be on one number of the case.
+    """The result that is to depend as little as possible on one number of the case.
 
-    The objective is the size of the change of the result where that number grows by 1 %, by a
+    The objective is the magnitude of the change of the result when that number grows by 1 %, by a
     central difference: each case is solved with three values of the number.
 
     Parameters
     ----------
     quantity : the result.
-    against : path of the number in the case; not zero there.
+    against : path of the number in the case; it must not be zero there.
     share : relative step of the difference, positive and at most 0.2.
     """
 
@@ -85,7 +85,7 @@ class LeastChange:
 
     @property
     def solves(self) -> int:
-        """Number of solves of a case."""
+        """Number of solves for one case."""
         return 3
 
     def change(self, less: float, more: float) -> float:
@@ -95,9 +95,9 @@ class LeastChange:
 
 @dataclass(frozen=True, slots=True)
 class _Bound:
-    """A limit of a result: a number in base units, or a text with its unit.
+    """A limit on a result: a number in base units, or a text with its unit.
 
-    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    ``tolerance`` is the share of the limit (of 1 where it is 0) by which it may be exceeded.
     """
 
     sense: ClassVar[Literal["at least", "at most"]]
@@ -114,9 +114,9 @@ class _Bound:
 
 
 class AtLeast(_Bound):
-    """A result must not be below a limit: a number in base units, or a text with its unit.
+    """A lower limit on a result: a number in base units, or a text with its unit.
 
-    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    ``tolerance`` is the share of the limit (of 1 where it is 0) by which it may be exceeded.
     """
 
     __slots__ = ()
@@ -124,9 +124,9 @@ class AtLeast(_Bound):
 
 
 class AtMost(_Bound):
-    """A result must not be above a limit: a number in base units, or a text with its unit.
+    """An upper limit on a result: a number in base units, or a text with its unit.
 
-    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    ``tolerance`` is the share of the limit (of 1 where it is 0) by which it may be exceeded.
     """
 
     __slots__ = ()
@@ -146,8 +146,9 @@ class LimitKept:
     quantity, unit : the result.
     sense : "at least" or "at most".
     limit, value, error : in that unit; the error is the solver's estimate, None without one.
-    is_kept : whether the value keeps the limit, within the tolerance given with it.
-    is_active : whether the value stands at the limit, within a share of 1e-3: it decides.
+    is_kept : whether the value keeps the limit, within its tolerance.
+    is_active : whether the value is at the limit, within a share of 1e-3, so that the limit
+        decides.
     """
 
     quantity: str
@@ -167,7 +168,7 @@ def limit_text(limit: Limit) -> str:
 
 
 def excess_over(limit: Limit, value: float) -> float:
-    """Return how far a value is beyond a limit and its tolerance, over the limit; <= 0: kept.
+    """Return how far a value exceeds a limit and its tolerance, over the limit; <= 0: kept.
 
     Where the limit is 0, the excess is not divided.
     """
@@ -177,7 +178,7 @@ def excess_over(limit: Limit, value: float) -> float:
 
 
 def standing(limit: Limit, row: Mapping[str, Any], error: float | None) -> LimitKept:
-    """A limit in a solved case."""
+    """Return the state of a limit in a solved case."""
     value = float(row[limit.quantity])
     excess = excess_over(limit, value)
     return LimitKept(
@@ -198,7 +199,7 @@ def _require_tolerance(value: float) -> None:
 
 
 def require_consistent(limits: tuple[Limit, ...]) -> None:
-    """Raise InvalidInputError where two limits on one result leave nothing between them."""
+    """Raise InvalidInputError where two limits on one result leave no range between them."""
     for low in (one for one in limits if isinstance(one, AtLeast)):
         for high in (one for one in limits if isinstance(one, AtMost)):
             if low.quantity != high.quantity:

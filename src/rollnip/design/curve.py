@@ -1,4 +1,4 @@
-"""One result over one parameter: samples, brackets, crossings. Numbers only, no nips."""
+"""One result as a function of one parameter: samples, brackets, crossings; numbers only."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 
 from scipy.optimize import brentq, minimize_scalar
 
-_GEOMETRIC = 10.0  # an interval of positive numbers as wide as this is parted by ratios
-_SHARPEST = 1e-6  # share of the interval; a change over less is a jump
+_GEOMETRIC = 10.0  # ratio of positive limits from which the interval is divided by ratios
+_SHARPEST = 1e-6  # share of the interval; a change over a shorter distance is a jump
 _MOST_STEPS = 60
 _TURN_STEPS = 8
 _REACH_STEPS = 6
@@ -19,7 +19,7 @@ _REACH_STEPS = 6
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One case: the parameter, the result (None where not solved), all results, what was said."""
+    """One case: the parameter, the result (None if not solved), all results, and the message."""
 
     x: float
     y: float | None
@@ -29,14 +29,14 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """Two cases next to each other, with the wanted value between their results."""
+    """Two neighbouring cases whose results lie on either side of the wanted value."""
 
     left: Point
     right: Point
 
 
 class _Stopped(Exception):
-    """A case was not solved, or what was looked for is there already."""
+    """A case was not solved, or what was looked for has been found."""
 
 
 class Curve:
@@ -44,7 +44,7 @@ class Curve:
 
     Parameters
     ----------
-    solve : from a parameter to the case there.
+    solve : function that returns the case at a parameter.
     low, high : limits of the parameter, low < high.
     """
 
@@ -70,9 +70,9 @@ class Curve:
             self._at(index / (count - 1))
 
     def turn(self, wanted: float) -> None:
-        """Follow inner extremes towards the wanted value, until it is crossed or they end.
+        """Follow inner extremes towards the wanted value until it is crossed, or to their end.
 
-        So two crossings between two samples are found where the samples show the bend.
+        This finds two crossings between neighbouring samples where the samples show the bend.
         """
         points = self.solved
         for left, middle, right in zip(points, points[1:], points[2:], strict=False):
@@ -82,9 +82,9 @@ class Curve:
                 self._descend(left, right, wanted, sign)
 
     def reach(self, wanted: float) -> None:
-        """Move from solved cases towards neighbours that were not solved, to pass the wanted value.
+        """Approach neighbours that were not solved from solved cases, to pass the wanted value.
 
-        Halving: so an answer beside cases without a solution is found.
+        It bisects, and finds a solution that lies next to cases that cannot be solved.
         """
         for left, right in pairwise(self.points):
             if (left.y is None) == (right.y is None):
@@ -101,7 +101,10 @@ class Curve:
                     return
 
     def crossings(self, wanted: float, near: float) -> tuple[tuple[Point, ...], tuple[Jump, ...]]:
-        """Cases whose result is ``wanted`` within ``near``, and jumps across it, by parameter."""
+        """Return the cases whose result is ``wanted`` within ``near``, and the jumps across it.
+
+        Both are ordered by the parameter.
+        """
         points, found, jumps = self.solved, [], []
         for left, right in pairwise(points):
             a, b = _off(left, wanted), _off(right, wanted)
@@ -118,7 +121,7 @@ class Curve:
         return tuple(found), tuple(jumps)
 
     def _root(self, left: Point, right: Point, wanted: float, near: float) -> Point | Jump | None:
-        """Brent's method; None where a case on the way was not solved."""
+        """Return the crossing by Brent's method; None where a case on the way was not solved."""
 
         def off(share: float) -> float:
             distance = self._off_at(share, wanted)
@@ -176,10 +179,10 @@ class Curve:
 
 
 def slope_at(points: tuple[Point, ...], at: Point, noise: float) -> float | None:
-    """Derivative at ``at``: of the parabola through it and a neighbour on either side.
+    """Return the derivative at ``at``, of the parabola through it and a neighbour on either side.
 
-    The neighbour is the nearest case whose result differs by more than ``noise``; with one
-    neighbour the secant, without any (or where the derivative is 0) None.
+    The neighbour is the nearest case whose result differs by more than ``noise``. With one
+    neighbour it is the secant; with none, or where the derivative is 0, it is None.
     """
     secants, gaps = [], []
     for side in (-1.0, 1.0):

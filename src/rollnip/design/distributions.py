@@ -1,4 +1,4 @@
-"""Distributions of parameters, and Latin hypercube samples of them, correlated or not."""
+"""Distributions of parameters, and Latin hypercube samples of them, with or without correlation."""
 
 from __future__ import annotations
 
@@ -17,16 +17,15 @@ from rollnip.design.quantities import read_parameter
 Array = NDArray[np.float64]
 Number = float | str
 
-_LEAST_SHARE = 1e-6  # least probability between the ends of a truncated distribution
-_EDGE = 1e-12  # probabilities closer to 0 and 1 than this are not drawn
+_LEAST_SHARE = 1e-6  # smallest probability between the ends of a truncated distribution
+_EDGE = 1e-12  # smallest distance of a sampled probability from 0 and 1
 
 
 @dataclass(frozen=True, slots=True)
 class Normal:
     """A normal distribution: numbers in base units, or texts with their unit.
 
-    With ``low`` or ``high`` what lies beyond is left out, and the rest is normal in proportion:
-    mean and deviation are those before the cut.
+    With ``low`` or ``high`` it is truncated there; mean and deviation are those before truncation.
     """
 
     mean: Number
@@ -56,7 +55,7 @@ class Triangular:
 class LogNormal:
     """A log-normal distribution: its median, and the standard deviation of the natural logarithm.
 
-    With ``low`` or ``high`` what lies beyond is left out, as of `Normal`.
+    With ``low`` or ``high`` it is truncated there, as for `Normal`.
     """
 
     median: Number
@@ -70,7 +69,7 @@ Distribution = Normal | Uniform | Triangular | LogNormal
 
 @dataclass(frozen=True, slots=True)
 class Varied:
-    """A parameter by its path in the case, and how it is distributed."""
+    """A parameter, by its path in the case, and its distribution."""
 
     path: str
     distribution: Distribution
@@ -78,7 +77,10 @@ class Varied:
 
 @dataclass(frozen=True, slots=True)
 class Correlation:
-    """The correlation of two parameters' normal scores (of themselves where both are normal)."""
+    """The correlation of the normal scores of two parameters.
+
+    For two normal distributions it is that of the parameters themselves.
+    """
 
     one: str
     other: str
@@ -99,8 +101,8 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
     Raises
     ------
     InvalidInputError
-        for a value that cannot be read, a deviation that is not positive, limits the wrong way
-        round.
+        for a value that cannot be read, a deviation that is not positive, or limits in the wrong
+        order.
     """
     match distribution:
         case Normal(mean, deviation, low, high):
@@ -126,7 +128,7 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
 
 
 class Truncated:
-    """A distribution truncated at two ends.
+    """A distribution truncated at both ends.
 
     Parameters
     ----------
@@ -136,7 +138,7 @@ class Truncated:
     Raises
     ------
     InvalidInputError
-        where next to nothing of it lies between them.
+        where almost nothing of it lies between them.
     """
 
     def __init__(self, whole: Any, low: float, high: float) -> None:
@@ -150,13 +152,13 @@ class Truncated:
             )
 
     def ppf(self, probability: Any) -> Any:
-        """Return the quantiles of the truncated distribution at some probabilities."""
+        """Return the quantiles of the truncated distribution at given probabilities."""
         found = self.whole.ppf(self._below + np.asarray(probability) * self._share)
         return np.clip(found, self.low, self.high)
 
 
 def _cut(whole: Any, dimension: Dimension, low: Number | None, high: Number | None) -> Any:
-    """Return the distribution truncated at two ends, of which either may be missing."""
+    """Return the distribution truncated at both ends, either of which may be missing."""
     if low is None and high is None:
         return whole
     a = -np.inf if low is None else read_parameter("low", low, dimension)
@@ -174,8 +176,8 @@ def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, se
     distributions : (d,) distributions of scipy.
     count : n.
     scores :
-        (d, d) correlations of the normal scores, positive definite; None: independent. The
-        samples of each parameter stay one to each of n strata: they are only paired otherwise.
+        (d, d) correlations of the normal scores, positive definite; None: independent. The samples
+        of each parameter remain one in each of n strata; only their pairing changes.
     seed : seed of the random numbers.
 
     Returns
@@ -208,8 +210,8 @@ def score_matrix(paths: Sequence[str], correlations: Sequence[Correlation]) -> A
     Raises
     ------
     InvalidInputError
-        for a parameter that does not vary, a pair that is there twice, or correlations that
-        cannot hold together.
+        for a parameter that does not vary, a pair given twice, or correlations that are
+        inconsistent with each other.
     """
     if not correlations:
         return None

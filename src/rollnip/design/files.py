@@ -1,4 +1,4 @@
-"""Readers of optimise.toml and tolerance.toml; every fault is one clear line."""
+"""Readers of optimise.toml and tolerance.toml; every error is one clear line."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ _MAY_MISS = {"normal": ("low", "high"), "lognormal": ("low", "high")}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseStudy:
-    """The question that a file asks of `optimise`."""
+    """The contents of a file for `optimise`."""
 
     title: str
     case: Mapping[str, Any]
@@ -77,7 +77,7 @@ class OptimiseStudy:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToleranceStudy:
-    """The question that a file asks of `tolerance`."""
+    """The contents of a file for `tolerance`."""
 
     title: str
     case: Mapping[str, Any]
@@ -89,15 +89,15 @@ class ToleranceStudy:
 
 
 def read_optimise(path: str | Path) -> OptimiseStudy:
-    """Read a file that asks for an optimum, TOML or JSON.
+    """Read a file that describes an optimisation, TOML or JSON.
 
-    The name of the case in it counts from the folder of the file.
+    The name of the case in it is relative to the folder of the file.
 
     Raises
     ------
     CaseFileError
-        where a file cannot be read or asks for what cannot be; with the name of the file and the
-        path of the key.
+        where a file cannot be read or its contents are impossible; with the name of the file and
+        the path of the key.
     """
     source = str(path)
     table = parse_optimise(read_document(path), source)
@@ -113,16 +113,16 @@ def read_optimise(path: str | Path) -> OptimiseStudy:
 
 
 def read_tolerance(path: str | Path) -> ToleranceStudy:
-    """Read a file that asks for tolerances, TOML or JSON.
+    """Read a file that describes a computation of tolerances, TOML or JSON.
 
-    The name of the case in it counts from the folder of the file. A mean, mode or median that is
+    The name of the case in it is relative to the folder of the file. A mean, mode or median that is
     left out is the value in the case.
 
     Raises
     ------
     CaseFileError
-        where a file cannot be read or asks for what cannot be; with the name of the file and the
-        path of the key.
+        where a file cannot be read or its contents are impossible; with the name of the file and
+        the path of the key.
     """
     source = str(path)
     table = parse_tolerance(read_document(path), source)
@@ -148,7 +148,7 @@ def read_tolerance(path: str | Path) -> ToleranceStudy:
 def _each(
     entries: Sequence[_Entry], source: str, key: str, read: Callable[[_Entry], _Read]
 ) -> tuple[_Read, ...]:
-    """Read each entry of a list; an error names the file and the entry."""
+    """Return the entries of a list as read; an error names the file and the entry."""
     found = []
     for index, entry in enumerate(entries):
         with _at(source, f"{key}[{index}]"):
@@ -180,7 +180,7 @@ def _case(given: Any, path: str | Path) -> Mapping[str, Any]:
 def _fitted(
     name: str | None, path: str | Path
 ) -> tuple[tuple[Varied, ...], tuple[Correlation, ...]]:
-    """The unknowns of a fit as parameters, and their correlations; nothing without one."""
+    """Return the unknowns of a fit as parameters, and their correlations; empty without a fit."""
     if name is None:
         return (), ()
     folder = folder_of(path)

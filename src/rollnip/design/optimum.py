@@ -26,8 +26,8 @@ from rollnip.io import with_values
 from rollnip.sweeps import evaluate as evaluated
 
 _SHOWN = 5
-_AT_BOUND = 2e-3  # share of the interval
-_AS_GOOD = 0.01  # relative change of the objective
+_AT_BOUND = 2e-3  # distance over the interval, within which a value is at its bound
+_AS_GOOD = 0.01  # relative change of the objective, within which a case is as good
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,9 +38,9 @@ class Chosen:
     ----------
     path, unit, low, high : the parameter and its bounds.
     value : at the optimum.
-    at : the bound it stands at, "low" or "high"; None: inside.
-    as_good : from where to where it was in cases that keep all limits with an objective within
-        1 % of the best: how well it is determined; (value, value) where only the optimum is.
+    at : the bound at which it lies, "low" or "high"; None: inside.
+    as_good : range of its values in cases that keep all limits with an objective within 1 % of the
+        best, which shows how well it is determined; (value, value) where only the optimum is.
     """
 
     path: str
@@ -54,14 +54,14 @@ class Chosen:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchEnd:
-    """The end of one of the searches that began at different starts.
+    """The end of one of the searches from different starts.
 
     Attributes
     ----------
     values : by path, the best that it tried.
     value : the objective there; None where nothing was solved.
     is_feasible : whether all limits are kept there.
-    is_finished : whether it ended by its own tolerance, not for want of solves.
+    is_finished : whether it ended by its own tolerance, and not because the solves ran out.
     agrees : whether it keeps all limits with an objective within 1 % of the best of all.
     """
 
@@ -78,17 +78,18 @@ class Optimum(Framed):
 
     Attributes
     ----------
-    is_feasible : whether the case keeps all limits, by a solve of its own.
+    is_feasible : whether the case keeps all limits, in a separate solve.
     is_finished : whether all searches ended by their own tolerance; False: the solves ran out.
     searches : the end of each search.
     chosen : the parameters.
     quantity, unit, sense : the objective; "minimise" or "maximise".
-    value, error : the objective at the optimum, by a solve of its own; the solver's estimate of
+    value, error : the objective at the optimum, in a separate solve, and the solver's estimate of
         its error, None without one.
-    limits : how each limit stands; of an infeasible answer, the case nearest to keeping them.
-    solves : number of solved cases, the last included.
-    failures : (values by path, message) of those that could not be.
-    trials : (values by path, objective, whether all limits are kept) of every solved case in turn.
+    limits : the state of each limit; for an infeasible answer, in the case that comes closest to
+        keeping them.
+    solves : number of cases tried, the last included.
+    failures : (values by path, message) of those that could not be solved.
+    trials : (values by path, objective, whether all limits are kept) of every solved case in order.
     scalars : all results at the optimum, as `rollnip.sweeps.evaluate` returns them.
     case : the case with the chosen values.
     message : what was found, in a few sentences.
@@ -148,24 +149,24 @@ def optimise(
     evaluate: Evaluate = evaluated,
     each: Each = in_turn,
 ) -> Optimum:
-    """Find the values of a few parameters that make one result as small or large as can be.
+    """Find the values of a few parameters that make one result as small or large as possible.
 
-    The whole box is looked through by differential evolution; from its best places that are apart
-    from each other COBYQA follows the slope to the nearest optimum. Both keep the limits on
-    results. That the searches agree is a sign, no proof, that there is nothing better. A case that
-    cannot be solved counts as worse than any other, and is reported. The answer is solved again.
+    Differential evolution searches the whole box; from its best places that are apart from each
+    other COBYQA descends to the nearest optimum. Both keep the limits on results. Agreement of the
+    searches is an indication, not a proof, that there is nothing better. A case that cannot be
+    solved counts as worse than any other, and is reported. The answer is solved again.
 
     Parameters
     ----------
-    case : tree of a case file; stays as it was.
-    parameters : paths with their bounds, 1 to 20; a few are found well.
+    case : tree of a case file; it is not changed.
+    parameters : paths with their bounds, 1 to 20; the search is reliable for a few.
     objective : ``Minimise("peak_pressure")``, ``Maximise("nip_width")``, or
         ``LeastChange("sheet.feed_upper", "nip.load")``.
     limits : ``AtLeast("nip_width", "8 mm")``, ``AtMost("peak_pressure", "0.5 MPa")``.
-    search : how; ``Search()`` by default.
-    evaluate : solves one case; for tests, and for programs that keep count.
-    each : calls a function with several items; with that of `rollnip.sweeps.together`, and its
-        ``evaluate``, several cases are solved at a time. The answer is the same.
+    search : settings; ``Search()`` by default.
+    evaluate : solves one case; for tests, and for programs that count solves.
+    each : calls a function with several items. With that of `rollnip.sweeps.together`, and its
+        ``evaluate``, several cases are solved in parallel. The answer is the same.
 
     Returns
     -------
@@ -174,7 +175,7 @@ def optimise(
     Raises
     ------
     InvalidInputError
-        for unknown paths, bounds that cannot be read or are the wrong way round, limits that
+        for unknown paths, bounds that cannot be read or are in the wrong order, limits that
         contradict each other, or where not one case could be solved.
     """
     problem = Problem(case, tuple(parameters), objective, tuple(limits), evaluate)
@@ -241,7 +242,7 @@ def _end(problem: Problem, one: LocalSearch, sign: float, best: float) -> Search
 def _agreement(
     problem: Problem, ends: Sequence[SearchEnd], is_feasible: bool, is_finished: bool
 ) -> list[str]:
-    """Return sentences on whether the searches finished and whether they found the same optimum."""
+    """Return sentences on whether the searches finished, and whether they agree."""
     said = []
     if not is_finished:
         said.append(

@@ -1,4 +1,4 @@
-"""The cases that no other case beats in two or more results at once."""
+"""The Pareto front: cases that no other case beats in two or more results at once."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from rollnip._errors import InvalidInputError
 
 Sense = Literal["minimise", "maximise"]
-_BLOCK = 4096  # rows that are compared with a row of the front at once
+_BLOCK = 4096  # number of rows compared with a row of the front at once
 
 
 def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]:
@@ -26,7 +26,8 @@ def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]
 
     Returns
     -------
-    (k,) row numbers, by the first column from its best value on; equal rows are all there.
+    (k,) row numbers, ordered by the first column from its best value on; equal rows are all
+    included.
 
     Raises
     ------

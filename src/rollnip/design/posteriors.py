@@ -1,4 +1,4 @@
-"""The posterior of a fit as scattering parameters, correlated as the errors of its unknowns."""
+"""The posterior of a fit as distributed parameters, correlated like the errors of its unknowns."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from typing import Any
 from rollnip._errors import InvalidInputError
 from rollnip.design.distributions import Correlation, LogNormal, Normal, Varied
 
-_UNTOLD = 1e100  # variance of what the data leave open
+_UNTOLD = 1e100  # variance from which on a value is not determined by the data
 
 
 def posterior(fit: Mapping[str, Any]) -> tuple[tuple[Varied, ...], tuple[Correlation, ...]]:
-    """Return the unknowns of a fit as parameters that scatter, and their correlations.
+    """Return the unknowns of a fit as distributed parameters, and their correlations.
 
     Parameters
     ----------
     fit :
-        the tree of fit.json, or what `rollnip.identification.fit_dict` returns.
+        the tree of fit.json, or the result of `rollnip.identification.fit_dict`.
 
     Returns
     -------
-    parameters for `tolerance`: normal about the fitted value, lognormal where the fit searched on
-    a logarithmic scale, with the covariance of the fit and cut off at its bounds; and the
+    Parameters for `tolerance`: normal about the fitted value, log-normal where the fit searched on
+    a logarithmic scale, with the covariance of the fit and truncated at its bounds; and the
     correlation of each pair.
 
     Raises
     ------
     InvalidInputError
-        where the tree is none of a fit, or the fit does not tell an unknown.
+        where the tree is not that of a fit, or the fit does not determine an unknown.
     """
     try:
         unknowns, covariance = fit["unknowns"], fit["covariance"]

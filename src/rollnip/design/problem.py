@@ -1,4 +1,4 @@
-"""Many cases of one tree for a design: parameters in base units."""
+"""The optimisation problem: cases of one tree that differ in parameters, in base units."""
 
 from __future__ import annotations
 
@@ -81,14 +81,14 @@ class Problem:
         return place if np.all((place >= 0.0) & (place <= 1.0)) else None
 
     def values(self, place: Array) -> dict[str, float]:
-        """Return values by path at shares of the intervals, of 8 digits and within the bounds."""
+        """Return values by path at shares of the intervals: 8 digits, within the bounds."""
         values = self.low + place * (self.high - self.low)
         rounded = (float(f"{value:.{_DIGITS}g}") for value in values)
         inside = np.clip(list(rounded), self.low, self.high)
         return dict(zip(self.paths, map(float, inside), strict=True))
 
     def solve(self, values: Mapping[str, float]) -> Mapping[str, Any]:
-        """Solve one case, with what the objective adds to its results."""
+        """Return the results of one case, with those that the objective adds."""
         tree = with_values(self.case, values)
         row = self.evaluate(tree)
         if isinstance(self.objective, LeastChange) and row["converged"]:
@@ -98,7 +98,7 @@ class Problem:
     def _with_change(
         self, objective: LeastChange, tree: Mapping[str, Any], row: Mapping[str, Any]
     ) -> Mapping[str, Any]:
-        """Return a row with the change of a result; one not converged where that is unknown."""
+        """Return a row with the change of a result; not converged where the change is unknown."""
         path, share = objective.against, objective.share
         number = _number_at(tree, path)
         steps = [(1.0 - share) * number, (1.0 + share) * number]
@@ -141,7 +141,7 @@ class Problem:
         return Trial(place, sign * row[self.objective.key], excess, values)
 
     def by_path(self, trial: Trial) -> dict[str, float]:
-        """The values of a trial by path."""
+        """Return the values of a trial by path."""
         return dict(zip(self.paths, trial.values, strict=True))
 
     def require_some(self, trials: Sequence[Trial]) -> None:
@@ -163,7 +163,7 @@ class Problem:
 
 
 def _number_at(case: Mapping[str, Any], path: str) -> float:
-    """Return the number of a case at a path that is varied by shares of it."""
+    """Return the number of a case at a path, which is varied by shares of itself."""
     dimension = parameter_dimension(case, path)
     number = read_parameter("against", value_at(case, path), dimension)
     if number == 0.0:
@@ -172,7 +172,7 @@ def _number_at(case: Mapping[str, Any], path: str) -> float:
 
 
 def limits_of(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
-    """Return both bounds in base units. Raises InvalidInputError."""
+    """Return both bounds in base units; raise InvalidInputError where they cannot be read."""
     dimension = parameter_dimension(case, bounds.path)
     low = read_parameter("low", bounds.low, dimension)
     high = read_parameter("high", bounds.high, dimension)

@@ -1,4 +1,4 @@
-"""Parameters and results by name: what kind of number each is, read from numbers and texts."""
+"""Parameters and results by name: their kinds of quantity, read from numbers or texts."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.io import dimension_at
 from rollnip.sweeps import SCALARS
 
-# What says how a case was solved is no aim of a design.
+# Information on how a case was solved cannot be an aim of a design.
 QUANTITIES: Mapping[str, str] = {
     name: "" if unit == "1" else unit
     for name, unit in SCALARS.items()
     if not name.startswith(("error.", "solver.", "patch.error."))
 }
-"""The results that can be asked for, with their base units; empty for a ratio."""
+"""The results that can be aims, with their base units; empty for a ratio."""
 
-# Units that a reader is shown, where they have another name and the same size.
+# Units that a reader is shown, where they have another name but the same size.
 _SHOWN = {"N/s": "mW/mm"}
 # Results whose error follows from that of another by proportion.
 _PROPORTIONAL = {"dwell_time": "nip_width", "mean_pressure": "nip_width"}
@@ -36,7 +36,7 @@ def require_quantity(name: str, said: str = "quantity") -> None:
 
 
 def parameter_dimension(tree: Mapping[str, Any], path: str) -> Dimension:
-    """Return the dimension of the number at a path. Raises InvalidInputError if there is none."""
+    """Return the dimension of the number at a path; raise InvalidInputError if there is none."""
     dimension = dimension_at(tree, path)
     if dimension is None:
         raise InvalidInputError(f"`path` must lead to a number of the case, got {path}.")
@@ -44,9 +44,9 @@ def parameter_dimension(tree: Mapping[str, Any], path: str) -> Dimension:
 
 
 def read_parameter(said: str, value: object, dimension: Dimension) -> float:
-    """Return a number in base units from one, or from a text with its unit.
+    """Return a value in base units, from a number or a text with its unit.
 
-    Raises InvalidInputError, which names it as ``said``.
+    Raises InvalidInputError, which calls the value ``said``.
     """
     try:
         return parse_quantity(value, dimension)
@@ -70,7 +70,7 @@ def read_result(said: str, value: object, quantity: str) -> float:
 
 
 def result_error(row: Mapping[str, Any], quantity: str) -> float | None:
-    """Estimated error of a result in its unit; None where there is no estimate."""
+    """Return the estimated error of a result in its unit; None where there is no estimate."""
     source = _PROPORTIONAL.get(quantity, quantity)
     error, value, size = row.get(f"error.{source}"), row.get(quantity), row.get(source)
     if error is None or value is None or not size:
@@ -79,7 +79,7 @@ def result_error(row: Mapping[str, Any], quantity: str) -> float | None:
 
 
 def json_tree(value: Any) -> Any:
-    """Plain values for JSON: an infinite number (the radius of a plane) is a text, nan None."""
+    """Return plain values for JSON: an infinite number (a plane's radius) as text, nan as None."""
     if isinstance(value, Mapping):
         return {str(name): json_tree(one) for name, one in value.items()}
     if isinstance(value, list | tuple):

@@ -1,4 +1,4 @@
-"""Optima and tolerances in words and in a picture."""
+"""Optima and tolerances in words and plots."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from rollnip.plots.style import Style, page
 from rollnip.sweeps import scalar_axis, scalar_label
 
 _DIGITS = 5
-_ROUNDING = 1e-9  # relative error that counts as none
-_ROW = 78.0  # mm, height of the picture of one result
+_ROUNDING = 1e-9  # relative error that counts as zero
+_ROW = 78.0  # height of the plots of one result [mm]
 _SHOWN = (
     "load", "approach", "nip_width", "peak_pressure", "mean_pressure", "traction", "creepage",
     "dwell_time", "torque_upper", "torque_lower", "rolling_resistance",
@@ -52,14 +52,14 @@ def optimum_report(found: Optimum, title: str = "") -> str:
         lines += [f"  {_limit(one)}" for one in found.limits]
     asked = (found.quantity, *(one.quantity for one in found.limits))
     lines += [*result_lines(found.scalars, *asked), ""]
-    lines.append(f"{found.solves} cases solved, {len(found.failures)} of them in vain.")
+    lines.append(f"{found.solves} cases tried; {len(found.failures)} could not be solved.")
     return "\n".join(lines) + "\n"
 
 
 def result_lines(row: Mapping[str, Any], *asked: str) -> list[str]:
-    """The main results of a row of `rollnip.sweeps.evaluate`, each with its error; warnings.
+    """Return the main results of a row of `rollnip.sweeps.evaluate` with errors, and warnings.
 
-    Those ``asked`` for beside them come last.
+    Results ``asked`` for in addition come last.
     """
     names = dict.fromkeys((*_SHOWN, *_SHOWN_OF_FACE, *_SHOWN_OF_SHEET, *asked))
     shown = [name for name in names if name in QUANTITIES and row.get(name) is not None]
@@ -127,7 +127,7 @@ def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
 
 
 def _limits_of(found: Tolerance, quantity: str) -> tuple[float | None, float | None]:
-    """The tightest limits on a result."""
+    """Return the tightest limits on a result."""
     limits = [
         limit for chance in found.chances for limit in chance.limits if limit.quantity == quantity
     ]

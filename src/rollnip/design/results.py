@@ -1,4 +1,4 @@
-"""Tables of results of any size: CSV row by row, Parquet by columns, workbooks as a whole."""
+"""Tables of results of any size: CSV by rows, Parquet by columns, workbooks as a whole."""
 
 from __future__ import annotations
 
@@ -28,12 +28,13 @@ _TRUE = ("1", "1.0", "true")
 
 
 class ResultTable(ABC):
-    """A table of results on disk; only what is asked for is read.
+    """A table of results on disk, of which only the wanted parts are read.
 
     Attributes
     ----------
     source : name of the file, for messages.
-    names, units : those of the columns, from their heads ``name [unit]``; an empty unit where none.
+    names, units : of the columns, from their heads ``name [unit]``; the unit is empty where there
+        is none.
     """
 
     source: str
@@ -46,11 +47,11 @@ class ResultTable(ABC):
         return [axis_label(name, unit) for name, unit in zip(self.names, self.units, strict=True)]
 
     def head(self, name: str) -> str:
-        """Return the head of one column. Raises InvalidInputError for an unknown name."""
+        """Return the head of one column; raise InvalidInputError for an unknown name."""
         return self.heads[self.index(name)]
 
     def index(self, name: str) -> int:
-        """Return the index of a column. Raises InvalidInputError for an unknown name."""
+        """Return the index of a column; raise InvalidInputError for an unknown name."""
         if name in self.names:
             return self.names.index(name)
         near = get_close_matches(name, self.names, n=1)
@@ -66,13 +67,13 @@ class ResultTable(ABC):
 
         Returns
         -------
-        (n, m) array; nan where a cell is empty, and in rows whose column "converged", where there
-        is one, does not say so.
+        (n, m) array; nan where a cell is empty, and in rows whose column "converged", if there is
+        one, is not true.
 
         Raises
         ------
         InvalidInputError
-            where there is no such column, or a cell is no number; with file, line and column.
+            where there is no such column, or a cell is not a number; with file, line and column.
         """
         places = [self.index(name) for name in names]
         judged = self.index(_CONVERGED) if _CONVERGED in self.names else None

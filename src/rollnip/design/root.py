@@ -25,9 +25,9 @@ from rollnip.sweeps import evaluate as evaluated
 
 Evaluate = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
-_DIGITS = 8  # digits of a value found; further ones are far below the error
+_DIGITS = 8  # digits of the value found; further ones are far below its error
 _SHOWN = 5
-_NOISE = 5.0  # errors: results that differ by less say little about a slope
+_NOISE = 5.0  # difference of results over their error, below which it says little about a slope
 _LEAST, _MOST = 3, 200
 _FLAT = 1e-9  # relative change of the result below which a parameter has no influence
 
@@ -41,20 +41,22 @@ class Found(Framed):
     path, unit : path and unit of the parameter.
     quantity, quantity_unit, wanted : the result, and its wanted value.
     low, high : limits of the parameter.
-    value : the parameter that gives the wanted result (the lowest of them); None where none does.
-    error : estimated error of ``value``: the solver's estimate of the error of the result, and
-        the distance of the result from the wanted value, over the slope; None where there is no
+    value : the lowest value of the parameter that gives the wanted result; None where none does.
+    error : estimated error of ``value``: the solver's estimate of the error of the result plus the
+        distance of the result from the wanted value, over the slope; None where there is no
         estimate. The model's own error is not included: see ``scalars["warnings"]``.
-    reached : the result at ``value``, by a solve of its own.
+    reached : the result at ``value``, in a separate solve.
     reached_error : its estimated error.
     others : further values within the limits that give the wanted result.
-    slope : change of the result with the parameter at ``value``.
+    slope : derivative of the result with respect to the parameter at ``value``.
     bracket : the nearest two cases on either side of ``value``; None at a limit.
-    points : every case solved on the way, (parameter, result), by parameter; None: not solved.
+    points : every case tried on the way, (parameter, result), ordered by parameter; None: not
+        solved.
     failures : (parameter, message) of those that were not solved.
-    solves : number of solved cases, the one at ``value`` included.
-    scalars : all results at ``value``, as `rollnip.sweeps.evaluate` returns them; empty without.
-    case : the case with ``value``; the case as it was where there is none.
+    solves : number of cases tried, the one at ``value`` included.
+    scalars : all results at ``value``, as `rollnip.sweeps.evaluate` returns them; empty without a
+        value.
+    case : the case with ``value``; the original case where there is none.
     message : what was found, in one or a few sentences.
     """
 
@@ -90,7 +92,7 @@ class Found(Framed):
         return html_table("Found", (self.path, self.quantity), rows, [self.message])
 
     def _frame(self) -> Frame:
-        """Return every case solved on the way: the parameter and the result."""
+        """Return every case tried on the way: the parameter and the result."""
         columns: dict[str, Column] = {
             self.path: numbers(x for x, _ in self.points),
             self.quantity: numbers(y for _, y in self.points),
@@ -153,21 +155,21 @@ def find(
 ) -> Found:
     """Find the value of one parameter, between two limits, that gives a wanted result.
 
-    A few cases are solved from limit to limit; where their results pass the wanted value, it is
-    closed in on by Brent's method, and the value found is solved again. The result may rise,
-    fall or bend. Two crossings between neighbouring samples are missed where the samples show no
-    bend: raise ``points``.
+    A few cases are solved from limit to limit. Where their results pass the wanted value, Brent's
+    method closes in on it, and the value found is solved again. The result may rise, fall or bend.
+    Two crossings between neighbouring samples are missed where the samples show no bend; raise
+    ``points`` then.
 
     Parameters
     ----------
-    case : tree of a case file; stays as it was.
+    case : tree of a case file; it is not changed.
     path : path of the parameter, such as ``nip.load`` or ``upper.layers[0].thickness``.
     quantity : name of the result, such as ``nip_width``; see ``QUANTITIES``.
     wanted, low, high : numbers in base units (mm, N, MPa, s) or texts with their unit.
-    tolerance : how near the result must come, as a share of the wanted value (where that is 0:
-        of the largest result in between).
-    points : cases from limit to limit, 3 to 200.
-    evaluate : solves one case; for tests, and for programs that keep count.
+    tolerance : how close the result must come, as a share of the wanted value (where that is 0: of
+        the largest result in between).
+    points : number of cases from limit to limit, 3 to 200.
+    evaluate : solves one case; for tests, and for programs that count solves.
 
     Returns
     -------
@@ -224,7 +226,7 @@ def _question(
         )
     if not 1e-9 <= tolerance <= 0.1:
         raise InvalidInputError(f"`tolerance` must lie between 1e-9 and 0.1, got {tolerance!r}.")
-    with_values(case, {path: low})  # refuses a path to nowhere before anything is solved
+    with_values(case, {path: low})  # refuses an unknown path before anything is solved
     return _FindQuestion(case, path, unit, quantity, wanted, low, high, tolerance, evaluate)
 
 
@@ -259,7 +261,7 @@ def _no_influence(question: _FindQuestion, curve: Curve) -> str:
 
 
 def _fresh(question: _FindQuestion, root: Point) -> Point:
-    """The case at the value found, rounded, solved again."""
+    """Return the case at the value found, rounded and solved again."""
     return question.solve(float(f"{root.x:.{_DIGITS}g}"))
 
 

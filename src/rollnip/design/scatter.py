@@ -22,9 +22,9 @@ class Sampling:
 
     Parameters
     ----------
-    count : samples of the Latin hypercube, 20 to 1000000.
+    count : number of samples of the Latin hypercube, 20 to 1000000.
     sobol :
-        0, or a power of two n from 8 on: Sobol indices too, from n (d + 2) more cases with d
+        0, or a power of two n from 8 on: Sobol indices as well, from n (d + 2) more cases with d
         parameters.
     probabilities : probabilities of the quantiles, each between 0 and 1.
     confidence : confidence level of all intervals.
@@ -63,7 +63,7 @@ class Sampling:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantile:
-    """A quantile of a result, with its interval; None where there are too few samples for it."""
+    """A quantile of a result with its interval; an end is None where there are too few samples."""
 
     probability: float
     value: float
@@ -96,10 +96,10 @@ class Scatter:
     ----------
     quantity, unit : the result.
     mean, deviation, least, most : mean, standard deviation and extremes of the samples.
-    quantiles : with intervals from order statistics, good for any distribution.
+    quantiles : with intervals from order statistics, valid for any distribution.
     shares : influence of each parameter.
-    linear_share : share of the variance that the regression explains, R^2: below some 0.9 its
-        coefficients do not tell the whole story.
+    linear_share : share of the variance that the regression explains, R^2; below some 0.9 its
+        coefficients do not describe the influence fully.
     values : (n,) of the solved samples.
     """
 
@@ -124,9 +124,9 @@ class Chance:
     limits : the specification, one limit or several at once.
     text : the specification in words.
     value : share of the solved samples that meet it.
-    low, high : its interval (Clopper & Pearson); a sample that was not solved counts as a miss
-        in ``low`` and as met in ``high``.
-    undecided : solved samples nearer to the limit than the solver's estimated error.
+    low, high : its interval (Clopper & Pearson); a sample that was not solved counts as a miss in
+        ``low`` and as met in ``high``.
+    undecided : number of solved samples closer to the limit than the solver's estimated error.
     """
 
     limits: tuple[Limit, ...]
@@ -144,11 +144,11 @@ class Tolerance(Framed):
     Attributes
     ----------
     scatters : a distribution for each result.
-    chances : for each specification.
+    chances : one for each specification.
     together : probability that all specifications are met at once; None without any.
     paths, units : the parameters.
     samples : (n, d) solved samples of the parameters, in base units.
-    count, confidence, seed : as asked for.
+    count, confidence, seed : as in the settings.
     failures : (values by path, message) of the samples that were not solved.
     notes : what limits the answer, in plain words.
     """

@@ -1,6 +1,6 @@
 """Search in the unit cube under limits: differential evolution, then COBYQA from several places.
 
-Numbers only. What is tried does not depend on how many cases are solved at a time.
+Numbers only. The cases tried do not depend on how many are solved at a time.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ Array = NDArray[np.float64]
 _A = TypeVar("_A")
 _B = TypeVar("_B")
 
-_INSIDE = 1e-5  # share of a limit by which the search stays within it: room for its own last digits
+_INSIDE = 1e-5  # margin of the search to a limit, as a share of it, for its own last digits
 _UNSOLVED = 1e3  # excess of a case without results: worse than any other
-_GLOBAL = 0.4  # share of the solves for the global part
+_GLOBAL = 0.4  # share of the solves for the global search
 _MEMBERS = 6  # members of the population for each parameter
-_FEWEST = 12
+_FEWEST = 12  # smallest population
 _FIRST_RADIUS = 0.1
-_APART = 0.25  # least distance between the starts, as a share of an interval
+_APART = 0.25  # smallest distance between the starts, as a share of an interval
 _LEAST_SOLVES, _MOST_SOLVES = 20, 100_000
-_SOLVES, _SOLVES_EACH = 150, 100  # default: a fixed number, and more for each parameter
+_SOLVES, _SOLVES_EACH = 150, 100  # default: a fixed number, plus one for each parameter
 
 
 class Each(Protocol):
@@ -49,9 +49,9 @@ class Search:
 
     Parameters
     ----------
-    solves : at most so many cases, 20 to 100000; None: 150, and 100 for each parameter.
-    starts : searches by COBYQA, 1 to 20, each from a place of its own.
-    tolerance : how closely the parameters are found, as a share of their intervals.
+    solves : largest number of cases, 20 to 100000; None: 150 plus 100 for each parameter.
+    starts : number of searches by COBYQA, 1 to 20, each from a different place.
+    tolerance : accuracy of the parameters, as a share of their intervals.
     seed : seed of the random numbers; the same seed gives the same answer.
 
     Raises
@@ -95,10 +95,10 @@ class Trial:
     Attributes
     ----------
     at : (d,) shares of the intervals, 0 to 1.
-    cost : to be made small; inf where there are no results.
+    cost : to be minimised; inf where there are no results.
     excess : beyond each limit and its tolerance, as a share of the limit; <= 0: kept.
-    values : what was solved there, for whoever judges.
-    fault : why there are no results; empty where there are.
+    values : the parameters that were solved there.
+    fault : why there are no results; empty where there are some.
     """
 
     at: Array
@@ -109,14 +109,14 @@ class Trial:
 
     @property
     def violation(self) -> float:
-        """Sum of what is beyond the limits; 0 where all are kept."""
+        """Sum of the excesses over the limits; 0 where all are kept."""
         if not np.isfinite(self.cost):
             return float("inf")
         return sum(one for one in self.excess if one > 0.0)
 
     @property
     def rank(self) -> tuple[float, float]:
-        """The smaller the better: limits first, then the cost."""
+        """Smaller is better: limits first, then the cost."""
         return (self.violation, self.cost)
 
 
@@ -127,8 +127,8 @@ class LocalSearch:
     Attributes
     ----------
     begun : (d,) where it began.
-    best : the best that it tried.
-    is_finished : whether it ended by its own tolerance, and not because its solves were used up.
+    best : the best trial.
+    is_finished : whether it ended by its own tolerance, and not because its solves ran out.
     """
 
     begun: Array
@@ -138,7 +138,7 @@ class LocalSearch:
 
 @dataclass(frozen=True, slots=True)
 class Searched:
-    """The answer of `search_cube`: the best trial, all trials in order, each search's end."""
+    """The answer of `search_cube`: the best trial, all trials in order, and each search's end."""
 
     best: Trial
     trials: tuple[Trial, ...]
@@ -146,7 +146,7 @@ class Searched:
 
     @property
     def is_finished(self) -> bool:
-        """True where no search ended for want of solves."""
+        """Whether no search ended because its solves ran out."""
         return all(one.is_finished for one in self.ends)
 
 
@@ -162,7 +162,7 @@ class _Log:
         self.trials: dict[bytes, Trial] = {}
 
     def at(self, places: Array) -> list[Trial]:
-        """Return the trials at places (n, d). Raises _Spent where too few solves are left."""
+        """Return the trials at places (n, d); raise _Spent where too few solves are left."""
         inside = np.clip(np.asarray(places, dtype=float), 0.0, 1.0)
         keys = [one.tobytes() for one in inside]
         new = dict(zip(keys, inside, strict=True))
@@ -176,7 +176,7 @@ class _Log:
         return [self.trials[key] for key in keys]
 
     def excess(self, places: Array) -> Array:
-        """Constraints of scipy, (m, n), all to be <= 0; the first is whether there are results."""
+        """Return constraints for scipy (m, n), <= 0 where kept; the first: whether it is solved."""
         rows = []
         for trial in self.at(places):
             solved = bool(np.isfinite(trial.cost))
@@ -204,8 +204,8 @@ def search_cube(
     judge : function that returns the trial at a place in the cube.
     start : (count,) a first place; None: none.
     count : number of dimensions.
-    search : how.
-    each : calls a function with several items, perhaps at the same time.
+    search : settings.
+    each : calls a function with several items, possibly in parallel.
     """
     budget = search.budget(count)
     log = _Log(judge, max(int(_GLOBAL * budget), 1), each)
@@ -246,7 +246,7 @@ def _globally(log: _Log, start: Array | None, count: int, search: Search) -> Non
 
 
 def _apart(ranked: Sequence[Trial], count: int) -> list[Trial]:
-    """Return the best solved trials that keep a distance from each other, the best of all first."""
+    """Return the best solved trials that are apart from each other, the best of all first."""
     solved = [trial for trial in ranked if np.isfinite(trial.cost)]
     chosen: list[Trial] = []
     for trial in solved:
@@ -259,7 +259,7 @@ def _apart(ranked: Sequence[Trial], count: int) -> list[Trial]:
 def _locally(
     judge: Callable[[Array], Trial], begin: Trial, solves: int, worst: float, search: Search
 ) -> tuple[LocalSearch, tuple[Trial, ...]]:
-    """COBYQA from one place; how it ended, and what it tried, the place itself left out."""
+    """Return the end of COBYQA from one place, and its trials without that place."""
     log = _Log(judge, solves + 1, in_turn)
     log.trials[begin.at.tobytes()] = begin
     size = abs(begin.cost) or 1.0
@@ -278,7 +278,7 @@ def _locally(
                 "final_tr_radius": search.tolerance,
             },
         )
-        is_finished = found.status in (0, 2)  # the radius came down, or there is no room to move
+        is_finished = found.status in (0, 2)  # the final radius is reached, or all bounds coincide
     except _Spent:
         pass
     return LocalSearch(begin.at, log.ranked[0], is_finished), tuple(log.trials.values())[1:]

@@ -1,4 +1,4 @@
-"""Sobol indices and regression: which parameter a result depends on. Arrays only, no nips."""
+"""Sobol indices and regression: on which parameters a result depends. Arrays only, no nips."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SobolIndices:
     total_high: Array
 
     def first_of(self, index: int) -> tuple[float, float, float]:
-        """Share of one parameter alone: value, low, high."""
+        """Return the share of one parameter alone: value, low, high."""
         return (
             float(self.first[index]),
             float(self.first_low[index]),
@@ -44,7 +44,7 @@ class SobolIndices:
         )
 
     def total_of(self, index: int) -> tuple[float, float, float]:
-        """Share of one parameter with its interactions: value, low, high."""
+        """Return the share of one parameter with its interactions: value, low, high."""
         return (
             float(self.total[index]),
             float(self.total_low[index]),
@@ -54,12 +54,12 @@ class SobolIndices:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Regression:
-    """A plane through results over parameters, both in standard deviations.
+    """A linear regression of results on parameters, both over their standard deviations.
 
     Attributes
     ----------
     coefficients : (d,) standardised: change of the result with the parameter.
-    explained : share of the variance that the plane explains, R^2.
+    explained : share of the variance that it explains, R^2.
     """
 
     coefficients: Array
@@ -80,12 +80,12 @@ def sobol_places(count: int, dimensions: int, seed: int) -> Array:
     Parameters
     ----------
     count : n, a power of two.
-    dimensions : d, parameters.
+    dimensions : d, number of parameters.
     seed : seed of the scrambling.
 
     Returns
     -------
-    (n (d + 2), d) array: the samples A, B, and A with one column after the other of B.
+    (n (d + 2), d) array: the samples A, B, and A with each column in turn replaced by that of B.
 
     References
     ----------
@@ -104,7 +104,7 @@ def sobol_places(count: int, dimensions: int, seed: int) -> Array:
 
 
 def sobol_shares(values: Array, count: int, *, confidence: float, seed: int) -> SobolIndices:
-    """Sobol indices from the results at `sobol_places`, with bootstrap intervals.
+    """Return Sobol indices from the results at `sobol_places`, with bootstrap intervals.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def sobol_shares(values: Array, count: int, *, confidence: float, seed: int) -> 
 
 
 def regression(samples: Array, values: Array) -> Regression:
-    """Standardised regression coefficients.
+    """Return standardised regression coefficients.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def regression(samples: Array, values: Array) -> Regression:
 
 def _indices(parts: Array) -> tuple[Array, Array]:
     """Return first-order and total Sobol indices, (d,) each, from the rows f_A, f_B, f_AB."""
-    # twice, for scipy 1.17 cannot take one result of one parameter
+    # duplicated, because scipy 1.17 cannot take a single result of a single parameter
     twice = np.stack([parts, parts], axis=1)
     found = scipy.stats.sobol_indices(
         func={"f_A": twice[0], "f_B": twice[1], "f_AB": twice[2:]}, n=parts.shape[1]

@@ -53,7 +53,7 @@ class _ToleranceQuestion:
     solve: Solver
 
     def solved(self, samples: Array) -> Table:
-        """Solve a case for every sample and return the table of results."""
+        """Return the table of results, with a case for every sample."""
         errors = [f"error.{name}" for name in self.results if f"error.{name}" in SCALARS]
         columns = tuple(np.ascontiguousarray(column) for column in samples.T)
         axis = Axis(self.paths, tuple(unit or "1" for unit in self.units), columns)
@@ -75,21 +75,21 @@ def tolerance(
 
     Parameters
     ----------
-    case : tree of a case file; stays as it was.
+    case : tree of a case file; it is not changed.
     parameters : paths with their distributions, 1 to 20.
-    results : names of results, such as ``nip_width``; those of the limits are there anyway.
-    limits : the specifications: ``AtLeast("nip_width", "7 mm")``.
+    results : names of results, such as ``nip_width``; those of the limits are included anyway.
+    limits : the specifications, such as ``AtLeast("nip_width", "7 mm")``.
     correlations : between parameters; none: they are independent.
-    sampling : how many samples and which intervals; ``Sampling()`` by default.
-    solve : solves a study; `rollnip.sweeps.sweep` in this process by default. For more processes
-        ``functools.partial(sweep, workers=8)``; with ``database="tolerance.db"`` a run that was
-        stopped goes on from there.
+    sampling : number of samples, intervals; ``Sampling()`` by default.
+    solve : solves a study; by default `rollnip.sweeps.sweep` in this process. For several processes
+        use ``functools.partial(sweep, workers=8)``; with ``database="tolerance.db"`` an interrupted
+        run can be continued.
 
     Raises
     ------
     InvalidInputError
-        for unknown paths or results, distributions that cannot be read, correlations that cannot
-        hold together, or where fewer than 20 samples could be solved.
+        for unknown paths or results, distributions that cannot be read, inconsistent correlations,
+        or where fewer than 20 samples could be solved.
     """
     question = _question(
         case,
@@ -100,7 +100,7 @@ def tolerance(
     )
     plan = question.sampling
     samples = hypercube(question.distributions, plan.count, question.scores, plan.seed)
-    # one study, so that one database holds all of it
+    # one study, so that one database holds it all
     whole = question.solved(np.concatenate([samples, _mixed(question)]))
     table, mixed = _rows(whole, slice(plan.count)), _rows(whole, slice(plan.count, None))
     is_solved = np.asarray(table["converged"]) == 1.0
@@ -215,8 +215,8 @@ def _scatter(
 def quantile(values: Array, probability: float, confidence: float) -> Quantile:
     """Return a quantile, and the order statistics between which it lies with some confidence.
 
-    The number of samples below the true quantile is binomial, whatever the distribution; None
-    where too few samples lie beyond it. For a Latin hypercube the interval is on the safe side.
+    The number of samples below the true quantile is binomial, whatever the distribution. An end is
+    None where too few samples lie beyond it. For a Latin hypercube the interval is conservative.
     """
     ordered, count = np.sort(values), values.size
     tail = 0.5 * (1.0 - confidence)
@@ -255,7 +255,7 @@ def _chance(
 
 
 def _mixed(question: _ToleranceQuestion) -> Array:
-    """Return the samples that Sobol indices need; none where they are not wanted."""
+    """Return the samples that Sobol indices need; empty where they are not wanted."""
     plan, dimensions = question.sampling, len(question.paths)
     if not plan.sobol:
         return np.empty((0, dimensions))

@@ -1,4 +1,4 @@
-"""Dynamic-mechanical data: master curve, Prony series or fractional Zener, material of a case."""
+"""Dynamic-mechanical analysis: from measured data over a master curve to the material of a case."""
 
 from rollnip.dma.data import DmaData, read_dma
 from rollnip.dma.decks import ReadDeck, prony_deck, read_deck

@@ -17,13 +17,14 @@ from rollnip.materials.shift import checked_temperature
 
 Array = NDArray[np.float64]
 
-_LEAST = 4  # measurements
+_LEAST = 4  # fewest measurements accepted
 
 
 class Measured:
-    """Base class of measurements of a material at temperatures: their check, and their isotherms.
+    """Base class of measurements of a material at temperatures: their checks and their isotherms.
 
-    A measurement has a ``temperature``, and positive values in the arrays that ``_POSITIVE`` names.
+    Each measurement has a ``temperature``, and positive values in the arrays listed in
+    ``_POSITIVE``.
     """
 
     __slots__ = ()
@@ -56,11 +57,11 @@ class Measured:
         require_finite("poisson", self.poisson)
 
     def row(self, index: int) -> str:
-        """Return the place of a measurement in its source, as messages name it."""
+        """Return the location of a measurement in its source, as messages name it."""
         return self.rows[index] if self.rows else f"measurement {index + 1}"
 
     def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
-        """Indices of the measurements of each temperature, coldest first.
+        """Return the indices of the measurements of each isotherm, coldest first.
 
         Temperatures within ``width`` [K] of the coldest of a group count as one.
         """
@@ -84,9 +85,9 @@ class DmaData(Measured):
     frequency : (n,) [Hz].
     temperature : (n,) [degC].
     storage, loss : (n,) real and imaginary part of E* [MPa].
-    poisson : with which shear moduli were, or would be, converted.
+    poisson : Poisson ratio with which shear moduli were, or would be, converted.
     source : name of the file or other source.
-    rows : where each measurement stands in the source, for messages; empty where it is not known.
+    rows : location of each measurement in the source, for messages; empty where it is not known.
 
     Raises
     ------
@@ -121,12 +122,14 @@ def read_dma(
     sheet: str | None = None,
     tables: Sequence[int] = (),
 ) -> DmaData:
-    """Read a frequency or temperature sweep from what an instrument wrote, text or workbook.
+    """Read a frequency or temperature sweep from a file that an instrument wrote, text or workbook.
 
-    Columns are found by their heads, in English or German, in any order: frequency or angular
-    frequency, temperature, and two of storage modulus, loss modulus, size of the complex modulus,
+    Columns are recognised by their heads, in English or German, in any order: frequency or angular
+    frequency, temperature, and two of storage modulus, loss modulus, magnitude of the complex
+    modulus,
     tan delta and phase. Units stand in the heads or in a row below them. All tables of a file and
-    all sheets of a workbook are taken together. `read_tables` says what was understood.
+    all
+    sheets of a workbook are combined. `read_tables` reports how the file was understood.
 
     Parameters
     ----------
@@ -135,18 +138,18 @@ def read_dma(
     modulus :
         "E" or "G", where the heads do not say which was measured.
     poisson :
-        turns G into E = 2 (1 + poisson) G.
+        Poisson ratio that converts G into E = 2 (1 + poisson) G.
     temperature, frequency :
-        of all measurements [degC, Hz], where there is no such column.
+        value for all measurements [degC, Hz], where there is no such column.
     sheet :
-        the only one of a workbook that is read.
+        the one sheet of a workbook to read; all by default.
     tables :
-        numbers of the tables that are used, from 1; all by default.
+        numbers of the tables to use, counted from 1; all by default.
 
     Raises
     ------
     InvalidInputError
-        where a column or a unit is missing, or a value is none.
+        where a column or a unit is missing, or a cell is not a number.
     """
     reading = read_tables(path, temperature=temperature, frequency=frequency, sheet=sheet)
     chosen = reading.chosen("dynamic", tables)
@@ -170,7 +173,7 @@ def modulus_of(source: str, tables: Sequence[ReadTable], given: Modulus | None) 
     Raises
     ------
     InvalidInputError
-        where neither says it, or they contradict each other.
+        where neither states it, or they contradict each other.
     """
     said = {table.modulus for table in tables} - {None}
     if len(said) > 1:
@@ -188,7 +191,7 @@ def modulus_of(source: str, tables: Sequence[ReadTable], given: Modulus | None) 
 
 
 def _complex(table: ReadTable) -> tuple[Array, Array]:
-    """Storage and loss modulus from the two columns that there are."""
+    """Return storage and loss modulus, computed from the two columns present."""
     values = table.values
     if "storage" in values and "loss" in values:
         return values["storage"], values["loss"]

@@ -1,4 +1,4 @@
-"""Prony series as finite-element programs and pyvisco write them, in and out."""
+"""Prony series in the formats of finite-element programs and pyvisco, read and written."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ from rollnip.materials import WLF, Prony, Shift
 
 Deck = Literal["abaqus", "ansys", "pyvisco"]
 
-_NEARLY = 1e-6  # relative difference between shear and bulk ratios that is rounding
-_INCOMPRESSIBLE = 0.49  # Poisson ratio beyond which the bulk has no say in E
+_NEARLY = 1e-6  # difference between shear and bulk ratios that is rounding
+_INCOMPRESSIBLE = 0.49  # Poisson ratio from which the bulk modulus hardly affects E
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
 class ReadDeck:
-    """A Prony series from a deck.
+    """A Prony series read from a deck.
 
     Attributes
     ----------
-    material : with its shift law, at the reference temperature, where the deck has one.
+    material : the material, with its shift law, at the reference temperature, where the deck has
+        one.
     format : format of the deck.
     notes : assumptions made in reading, in plain words.
     """
@@ -42,14 +43,15 @@ class ReadDeck:
 def prony_deck(material: Prony, to: Deck, name: str = "rubber") -> str:
     """Write a Prony series for Abaqus (keywords), Ansys (APDL) or pyvisco (CSV).
 
-    Units are N, mm, MPa, s, degC. All ratios are those of G and K alike, for the Poisson ratio of
-    a material here does not relax. Terms are those at the reference of the shift law, which goes
-    along where it is WLF.
+    Units are N, mm, MPa, s, degC. G and K have the same ratios, because the Poisson ratio of a
+    material
+    here does not relax. The terms are those at the reference temperature of the shift law, which is
+    written too if it is WLF.
 
     Raises
     ------
     InvalidInputError
-        where the format is unknown or the name none for a deck.
+        where the format is unknown or the name is not valid in a deck.
     """
     checked_name(name)
     writers = {"abaqus": _abaqus, "ansys": _ansys, "pyvisco": _pyvisco}
@@ -66,16 +68,16 @@ def read_deck(
     Parameters
     ----------
     path :
-        path of the file; its content tells the format.
+        path of the file; the format is recognised from its content.
     unit :
-        unit of moduli in a deck, such as "MPa": decks carry none. Times are in seconds.
+        unit of the moduli in a deck, such as "MPa", since decks carry none. Times are in seconds.
     poisson :
-        where the file has none.
+        Poisson ratio, where the file has none.
 
     Raises
     ------
     InvalidInputError
-        where there is no Prony series, a number is missing, or the unit is.
+        where there is no Prony series, or a number or the unit is missing.
     """
     source = str(path)
     if Path(path).suffix.lower() in EXCEL:
@@ -182,7 +184,7 @@ def _read_abaqus(text: str, source: str, scale: float, poisson: float | None) ->
     instantaneous = "INSTANTANEOUS" in elastic[0].upper()
     notes = [] if "MODULI" in elastic[0].upper() else ["*ELASTIC says no MODULI: long term."]
     law = _abaqus_shift(options)
-    return _made(
+    return _deck_of_ratios(
         source, scale * constants[0], instantaneous, terms, bulk, given, law, "abaqus", notes
     )
 
@@ -197,7 +199,7 @@ def _abaqus_shift(options: Sequence[tuple[str, list[list[float]]]]) -> Shift | N
 
 
 def _keywords(text: str) -> Iterator[tuple[str, list[list[float]]]]:
-    """Keyword lines, blanks taken out, each with the numbers of the data lines below it."""
+    """Yield keyword lines, without blanks, each with the numbers of the data lines below it."""
     line = ""
     rows: list[list[float]] = []
     for raw in text.splitlines():
@@ -248,13 +250,15 @@ def _read_ansys(text: str, source: str, scale: float, poisson: float | None) -> 
     terms = list(zip(pairs["SHEAR"][::2], pairs["SHEAR"][1::2], strict=False))
     bulk = pairs["BULK"][::2] + [0.0] * len(terms)
     law = WLF(wlf[1], wlf[2], wlf[0]) if len(wlf) >= 3 else None
-    return _made(source, scale * modulus, True, terms, bulk[: len(terms)], given, law, "ansys", [])
+    return _deck_of_ratios(
+        source, scale * modulus, True, terms, bulk[: len(terms)], given, law, "ansys", []
+    )
 
 
 def _table(
     cells: Sequence[str], pairs: dict[str, list[float]], wlf: list[float]
 ) -> list[float] | None:
-    """Return the list that takes the TBDATA below a TB line; None for tables that are not read."""
+    """Return the list that the TBDATA below a TB line fill; None for tables that are not read."""
     kind = cells[1].upper() if len(cells) > 1 else ""
     last = cells[5].upper() if len(cells) > 5 else ""
     if kind.startswith("PRON"):
@@ -286,10 +290,10 @@ def _read_pyvisco(path: str | Path, poisson: float | None) -> ReadDeck:
     terms = [(ratio, time) for time, ratio, _ in values]
     ratios = [ratio for ratio, _ in terms]
     whole = factor * scale * values[0][2]
-    return _made(source, whole, True, terms, ratios, given, None, "pyvisco", [])
+    return _deck_of_ratios(source, whole, True, terms, ratios, given, None, "pyvisco", [])
 
 
-def _made(
+def _deck_of_ratios(
     source: str,
     modulus: float,
     instantaneous: bool,
@@ -300,12 +304,12 @@ def _made(
     kind: Deck,
     notes: list[str],
 ) -> ReadDeck:
-    """The material of ratios g_i = E_i/E_0: E_inf = E_0 (1 - sum g_i)."""
+    """Return the material of ratios g_i = E_i/E_0, with E_inf = E_0 (1 - sum g_i)."""
     if poisson is None:
         raise InvalidInputError(f"{source}: `poisson` must be given: the file has none.")
     left = 1.0 - sum(ratio for ratio, _ in terms)
     if len(terms) > 1 and instantaneous and abs(left) < _NEARLY:
-        # the table of pyvisco, whose ratios add up to 1: the slowest term is its plateau
+        # in tables of pyvisco the ratios add up to 1: the slowest term serves as the plateau
         slowest = max(range(len(terms)), key=lambda k: terms[k][1])
         left, time = terms[slowest]
         terms = [term for k, term in enumerate(terms) if k != slowest]

@@ -1,4 +1,4 @@
-"""A fitted material as text for a case file, and whether a nip stays within its data."""
+"""A fitted material as text for a case file, and checks that a nip stays within its data."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony, Shift
 from rollnip.solution import Solution
 
 _NAME = re.compile(r"[A-Za-z0-9_-]+")
-_SAME = 0.5  # K; so far from the coldest or warmest isotherm a temperature counts as theirs
+_SAME = 0.5  # K, tolerance on the coldest and warmest isotherm
 
 
 def material_toml(fit: DmaFit | TimeFit, name: str = "rubber") -> str:
-    """The material as a table ``[materials.name]`` that a case file takes as it is.
+    """Return the material as a table ``[materials.name]`` ready to paste into a case file.
 
-    Comments say where it comes from, how far it departs from the data, and for which frequencies
-    it holds. Raises InvalidInputError where the name is none for a TOML key.
+    Comments state its source, its deviation from the data, and the frequencies for which it holds.
+    Raises InvalidInputError where the name cannot be a TOML key.
     """
     checked_name(name)
     keys = material_keys(fit.material)
@@ -33,7 +33,7 @@ def material_toml(fit: DmaFit | TimeFit, name: str = "rubber") -> str:
 
 
 def checked_name(name: str) -> str:
-    """Return the name of a material, or raise InvalidInputError where it is none for a key."""
+    """Return the name of a material, or raise InvalidInputError where it cannot be a key."""
     if _NAME.fullmatch(name) is None or name == "rigid":
         raise InvalidInputError(
             f'`name` must be letters, digits, - and _, and not "rigid", got "{name}".'
@@ -82,7 +82,7 @@ def _deviation(fit: DmaFit | TimeFit) -> dict[str, Any]:
 
 
 def nip_frequency(solution: Solution) -> float:
-    """Speed over nip width [Hz]: how often a point is pressed while the nip passes.
+    """Return the frequency of a nip [Hz], speed over nip width: the inverse of the time in contact.
 
     Raises InvalidInputError where the nip has no speed.
     """
@@ -94,7 +94,7 @@ def nip_frequency(solution: Solution) -> float:
 def frequency_warning(
     fit: DmaFit | TimeFit, solution: Solution, temperature: float | None = None
 ) -> str:
-    """Return a warning where a nip works outside the data of its material, else an empty text.
+    """Return a warning where a nip's frequency is outside the data of its material, else "".
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def frequency_warning(
     solution :
         solution of the nip.
     temperature :
-        temperature of the material in it [degC]; the reference by default.
+        temperature of the material in the nip [degC]; the reference temperature by default.
     """
     low, high = valid_range(fit, temperature)
     frequency = nip_frequency(solution)
@@ -139,9 +139,9 @@ def temperature_warning(fit: DmaFit | TimeFit, temperature: float) -> str:
 
 
 def valid_range(fit: DmaFit | TimeFit, temperature: float | None = None) -> tuple[float, float]:
-    """Lowest and highest frequency [Hz] that the data reach at a temperature [degC].
+    """Return the lowest and highest frequency [Hz] that the data cover at a temperature [degC].
 
-    Raises InvalidInputError where the material has no shift law and another temperature than the
+    Raises InvalidInputError where the material has no shift law and a temperature other than the
     reference is asked for.
     """
     low, high = fit.frequency_range
@@ -163,7 +163,7 @@ def _comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
     yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
     yield f"# measured at {cold:.4g} to {warm:.4g} degC; outside of that it is extrapolated."
-    yield from _said_deviation(fit)
+    yield from _deviation_comments(fit)
     shift = fit.shift
     units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}
     for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True):
@@ -172,7 +172,7 @@ def _comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     yield from (f"# Warning: {said}" for said in fit.warnings)
 
 
-def _said_deviation(fit: DmaFit | TimeFit) -> Iterator[str]:
+def _deviation_comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     if isinstance(fit, TimeFit):
         low, high = (format_quantity(v, digits=3) for v in fit.time_range)
         yield f"# That is {low} s to {high} s, as 1/(2 pi time)."
@@ -187,7 +187,7 @@ def _said_deviation(fit: DmaFit | TimeFit) -> Iterator[str]:
 
 
 def material_keys(material: Prony | FractionalZener) -> Iterator[str]:
-    """The lines of a material below its ``[materials.name]``, every digit kept."""
+    """Yield the lines of a material below its ``[materials.name]``, with every digit."""
     yield f'model = "{"prony" if isinstance(material, Prony) else "fractional-zener"}"'
     yield f'modulus = "{material.modulus!r} MPa"'
     if isinstance(material, FractionalZener):
@@ -207,7 +207,7 @@ def material_keys(material: Prony | FractionalZener) -> Iterator[str]:
 
 
 def shift_keys(law: Shift) -> Iterator[str]:
-    """The keys of a shift law as a case file takes them, each with its value."""
+    """Yield the keys of a shift law with their values, as a case file takes them."""
     if isinstance(law, WLF):
         yield 'model = "wlf"'
         yield f"c1 = {law.c1!r}"

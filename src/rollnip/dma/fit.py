@@ -1,4 +1,4 @@
-"""The fit of a material to dynamic-mechanical data: shift, spectrum, warnings."""
+"""The fit of a material to dynamic-mechanical data: shift factors, spectrum, warnings."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from rollnip.materials.shift import checked_temperature
 Array = NDArray[np.float64]
 Kind = Literal["prony", "fractional-zener"]
 
-_DIGITS = 6  # digits of the numbers of the material
+_DIGITS = 6  # significant digits of the numbers of the material
 _MOST_ISOTHERMS = 200  # beyond it free shifts take too long to be worth it
-_FAR, _MANY = 0.15, 4.0  # decades, standard errors: a free shift that departs from the law
-_NEAR_POLE = 3.0  # K
-_VAGUE = 0.5  # relative standard error of a constant that is not determined
-_NO_PLATEAU = 1e-3  # of the least storage modulus, where the data bound the relaxed one only
-_SOFTEST = 1e-9  # MPa: the least modulus a material may have
-_REWEIGHED = 2  # times the shifts are searched again with weights of a robust fit
+_FAR, _MANY = 0.15, 4.0  # decades and standard errors by which a free shift departs from the law
+_NEAR_POLE = 3.0  # K, between the pole of WLF and the coldest isotherm
+_VAGUE = 0.5  # relative standard error above which a constant counts as undetermined
+_NO_PLATEAU = 1e-3  # least relaxed modulus over the least storage modulus: the data only bound it
+_SOFTEST = 1e-9  # MPa, the least modulus a material may have
+_REWEIGHED = 2  # number of repeated searches of the shifts with the weights of a robust fit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,18 +45,21 @@ class DmaMethod:
     model :
         "prony" or "fractional-zener".
     shift :
-        "wlf" or "arrhenius": the law whose constants are fitted; or a law itself.
+        "wlf" or "arrhenius": the law whose constants are fitted; or a law with its constants.
     reference :
         temperature of the master curve [degC]; that of the middle isotherm by default.
     vertical :
-        "none"; "entropic": moduli in proportion to the absolute temperature; "free".
+        vertical shifts: "none"; "entropic", moduli proportional to the absolute temperature;
+        "free",
+        a fitted factor for each isotherm.
     terms :
-        number of terms of the Prony series; by default 1.5 to 3 a decade and as smooth as
-        cross-validation asks.
+        number of terms of the Prony series; by default 1.5 to 3 per decade, chosen with its
+        smoothing
+        by cross-validation.
     width :
-        temperatures this near [K] are one isotherm.
+        temperatures within this range [K] form one isotherm.
     robust :
-        count rows that lie far off less.
+        give less weight to outlying rows.
 
     Raises
     ------
@@ -93,23 +96,24 @@ class DmaMethod:
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class DmaFit:
-    """A material from dynamic-mechanical data.
+    """A material fitted to dynamic-mechanical data.
 
     Attributes
     ----------
-    material : Prony or FractionalZener at the reference temperature, with the shift law where it
-        has one, and with the vertical shifts.
+    material : Prony or FractionalZener at the reference temperature, with the shift law, if it has
+        one, and its vertical shifts.
     master : the data at the reference temperature, shifted by the law.
     shift : the law with its constants and their standard errors.
-    free : the isotherms shifted each by itself; None where that was not done.
+    free : the data with each isotherm shifted independently of a law; None where that was not done.
     free_errors : (m,) standard errors of those shifts [decades].
     scatter : relative scatter of storage and loss modulus between neighbouring frequencies; None
-        where the isotherms are too short to tell it.
+        where the isotherms have too few points to tell.
     quality : deviations of the material from the data.
     frequency_range : lowest and highest frequency [Hz] of the data at the reference temperature.
     temperature_range : lowest and highest temperature measured [degC].
-    crossvalidation : (k,) mean squares of what was left out, for each spectrum tried; or empty.
-    warnings : in plain words.
+    crossvalidation : (k,) mean square of the residuals of held-out data for each spectrum tried; or
+        empty.
+    warnings : reservations, in plain words.
     """
 
     material: Prony | FractionalZener
@@ -142,12 +146,12 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
 
     Returns
     -------
-    DmaFit; its ``material`` goes into a `rollnip.Layer`, `material_toml` writes it for a case.
+    DmaFit. Its ``material`` can be used in a `rollnip.Layer`; `material_toml` writes it for a case.
 
     Raises
     ------
     InvalidInputError
-        where the data cannot tell the shifts: one frequency only, and no law given.
+        where the data cannot determine the shifts: one frequency only, and no law given.
     """
     method = DmaMethod() if method is None else method
     start = unshifted(data, method.reference, method.vertical, method.width)
@@ -179,11 +183,11 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
 
 
 def shifted(start: Master, method: DmaMethod) -> ShiftFit:
-    """The isotherms shifted by the law of the method, or by one whose constants are fitted."""
+    """Return the isotherms shifted by the law of the method, or by a law that is fitted."""
     law = method.shift
     if not isinstance(law, WLF | Arrhenius):
         return fit_law(start, law, levels=method.vertical == "free")
-    # a law given at another reference moves to that of the master curve
+    # a law given at another reference is converted to that of the master curve
     at_reference = np.log10(law.factor(start.reference))
     factors = np.array([np.log10(law.factor(float(t))) for t in start.temperatures])
     moved = _moved(law, start.reference)
@@ -191,7 +195,7 @@ def shifted(start: Master, method: DmaMethod) -> ShiftFit:
 
 
 def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
-    """Return the law about another reference: C1 C2 and the pole of WLF stay as they are."""
+    """Return the law for another reference; the product C1 C2 and the pole of WLF are kept."""
     if isinstance(law, Arrhenius):
         return Arrhenius(law.activation_energy, reference)
     c2 = law.c2 + reference - law.reference
@@ -247,7 +251,7 @@ def _material(
 def with_levels(
     law: WLF | Arrhenius | None, master: Master, vertical: Vertical
 ) -> WLF | Arrhenius | None:
-    """The law with the vertical shifts; None where the reference lies outside of their table."""
+    """Return the law with the vertical shifts; None where the reference is outside their table."""
     if law is None or vertical == "none":
         return law
     if vertical == "entropic":
@@ -261,7 +265,7 @@ def with_levels(
 
 
 def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
-    """E0 [MPa], k [MPa], tau [s] and order of the fractional Zener solid that fits best."""
+    """Return E0 [MPa], k [MPa], tau [s] and order of the best-fitting fractional Zener solid."""
     low, high = float(np.min(data.storage)), float(np.max(data.storage))
     times = 1.0 / np.array([np.min(data.omega), np.max(data.omega)])
 
@@ -330,7 +334,7 @@ def _shift_warnings(
 
 
 def _gaps(master: Master) -> list[str]:
-    """Neighbouring isotherms whose reduced frequencies do not overlap."""
+    """Return a warning about neighbouring isotherms whose reduced frequencies do not overlap."""
     ends = [
         np.log10(master.data.frequency[group]) + a
         for group, a in zip(master.groups, master.horizontal, strict=True)
@@ -372,7 +376,7 @@ def _model_warnings(
 
 
 def rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
-    """The law with six digits in its constants."""
+    """Return the law with its constants rounded to six digits."""
     if isinstance(law, WLF):
         return replace(law, c1=to_six_digits(law.c1), c2=to_six_digits(law.c2))
     if isinstance(law, Arrhenius):
@@ -381,5 +385,5 @@ def rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
 
 
 def to_six_digits(value: float) -> float:
-    """The value with six digits."""
+    """Return the value rounded to six digits."""
     return float(f"{value:.{_DIGITS - 1}e}")

@@ -1,4 +1,4 @@
-"""Heads of tables of measurements, in English and German: their meaning and their units."""
+"""Column heads of tables of measurements, in English and German: their meaning and their units."""
 
 from __future__ import annotations
 
@@ -135,15 +135,15 @@ _UNITS = {
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """The meaning of a column's head.
+    """The meaning of a column head.
 
     Attributes
     ----------
-    text : the head as it is written.
-    quantity : measured; None where it is none that is needed.
+    text : the head as written.
+    quantity : the quantity measured; None where it is not one that is used.
     kind : E or G, where the head says which modulus.
-    unit : the unit as written; None where the head says none.
-    angular : whether it is a frequency in radians by its name.
+    unit : the unit as written; None where there is none.
+    angular : whether its name denotes an angular frequency.
     """
 
     text: str
@@ -164,7 +164,7 @@ def read_head(text: str, below: str | None = None) -> Head:
         if pattern is not None and match is None:
             continue
         name, unit = (shown, below) if match is None else (match[1], match[2].strip())
-        found = _named(name, unit)
+        found = _meaning(name, unit)
         if found is not None:
             quantity, kind, angular = found
             return Head(shown, quantity, kind, unit, angular)
@@ -184,12 +184,12 @@ def bare_unit(text: str) -> str:
 
 
 def scale_of(head: Head, unit: str | None, where: str) -> tuple[float, float]:
-    """Scale and offset from the unit of a column to the base unit (Hz, degC, MPa, rad, s, 1/MPa).
+    """Return scale and offset from a column's unit to the base unit (Hz, degC, MPa, rad, s, 1/MPa).
 
     Raises
     ------
     InvalidInputError
-        where the unit is missing, unknown or of another kind; it says what to write instead.
+        where the unit is missing, unknown or of another dimension; the message says what to write.
     """
     quantity = head.quantity
     assert quantity is not None
@@ -231,7 +231,10 @@ def _reciprocal(head: Head, unit: str, where: str) -> str:
 
 
 def _spelled(head: Head, unit: str) -> str:
-    """The unit as the parser of quantities knows it; what else a head admits is clear."""
+    """Return the unit as the parser of quantities spells it.
+
+    Spellings such as C, F or Grad are unambiguous once the quantity is known.
+    """
     quantity = head.quantity
     if quantity == "temperature":
         return _SPELLED.get(unit, unit)
@@ -259,9 +262,9 @@ def _bare(text: str) -> str:
     return text if match is None else match[1]
 
 
-def _named(name: str, unit: str | None) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
+def _meaning(name: str, unit: str | None) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
     plain = " ".join(name.strip().translate(_PRIMES).lower().split())
-    if plain == "t":  # temperature or time: the letter tells, or the unit
+    if plain == "t":  # temperature or time: the unit decides, else upper or lower case
         is_time = unit in {"s", "ms", "min", "h", *_TIMES} or (not unit and name.strip() == "t")
         return ("time" if is_time else "temperature"), None, False
     if plain in _LETTERS and unit and not _fits(unit, _LETTERS[plain]):
@@ -285,20 +288,23 @@ def _fits(unit: str, dimension: Dimension) -> bool:
     return True
 
 
-def _bared(part: str) -> str:
-    """A part of a head without brackets around it and dashes or commas beside it."""
+def _unbracketed(part: str) -> str:
+    """Return a part of a head without enclosing brackets and adjacent dashes or commas."""
     trimmed = part.strip(" ,-")
     closed = trimmed[:1] + trimmed[-1:] in {"()", "[]"} and trimmed.count("(") < 2
     return trimmed[1:-1].strip() if closed else trimmed
 
 
 def _composed(plain: str) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
-    """``speichermodul e'``, ``shear storage modulus``, ``e stor``, ``verlustfaktor tan delta``."""
+    """Interpret heads of two names, such as ``shear storage modulus`` or ``speichermodul e'``.
+
+    Also ``e stor`` and ``verlustfaktor tan delta``.
+    """
     words = plain.split()
     for cut in range(1, len(words)):
         first, rest = " ".join(words[:cut]), " ".join(words[cut:])
         for one, other in ((first, rest), (rest, first)):
-            one, other = _bared(one), _bared(other)
+            one, other = _unbracketed(one), _unbracketed(other)
             quantity = _QUANTITIES.get(one)
             if one in _ANGULAR_NAMES and other in _ANGULAR_NAMES:
                 return "frequency", None, True

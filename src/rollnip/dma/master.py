@@ -1,4 +1,4 @@
-"""Master curves: isotherms side by side or shifted, and how much neighbouring values scatter."""
+"""Master curves: isotherms, unshifted or shifted, and the scatter between neighbouring values."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ Array = NDArray[np.float64]
 Vertical = Literal["none", "entropic", "free"]
 
 _ZERO = 273.15  # degC in K
-_FLOOR = 0.01  # relative error of a modulus that clamps and dimensions leave to any instrument
+_FLOOR = 0.01  # relative error from clamping and sample dimensions, with any instrument
 _LEAST_WINDOWS = 8  # windows of four neighbours that an estimate of scatter needs
-_MEAN = 1.2533  # standard deviation over the mean of the sizes, for a normal distribution
-_MAD = 1.4826  # standard deviation over the median of the sizes, for a normal distribution
-_OUTLYING = 3.0  # standard deviations: residuals this large count a quarter
-_ROUNDS = 5
+_MEAN = 1.2533  # standard deviation over the mean absolute value of a normal distribution
+_MAD = 1.4826  # standard deviation over the median absolute value of a normal distribution
+_OUTLYING = 3.0  # standard deviations at which a residual has weight 1/2, its square 1/4
+_ROUNDS = 5  # of reweighting
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Master:
-    """Data, and how each isotherm is shifted to the reference temperature.
+    """Data with the shift of each isotherm to the reference temperature.
 
     Attributes
     ----------
-    data : as measured.
+    data : the data as measured.
     groups : indices of the measurements of each isotherm, coldest first.
     temperatures : (m,) mean of each isotherm [degC].
-    reference : temperature shifted to [degC].
+    reference : temperature to which the data are shifted [degC].
     horizontal : (m,) log10 a_T: reduced frequency = frequency a_T.
     vertical : (m,) ln b_T: modulus at the reference = modulus / b_T.
-    errors : relative standard errors of storage and loss, by which residuals are weighed.
-    weights : (n,) by which the residuals of each measurement are multiplied; None: all 1.
+    errors : relative standard errors of storage and loss, by which residuals are divided.
+    weights : (n,) factors on the residuals of each measurement; None: all 1.
     """
 
     data: DmaData | TimeData
@@ -52,7 +52,7 @@ class Master:
 
     @property
     def order(self) -> NDArray[np.int64]:
-        """(n,) index in the data of each reduced measurement."""
+        """(n,) index of each reduced measurement in the data."""
         return np.concatenate(self.groups)
 
     @property
@@ -60,7 +60,7 @@ class Master:
         """All data at the reference temperature, coldest isotherm first."""
         sizes = [group.size for group in self.groups]
         factor = np.repeat(10.0**self.horizontal, sizes)
-        up = 1.0 if self.data.kind == "creep" else -1.0  # a compliance goes the other way
+        up = 1.0 if self.data.kind == "creep" else -1.0  # a compliance is multiplied by b_T
         level = np.repeat(np.exp(up * self.vertical), sizes)
         return Reduced(
             2.0 * np.pi * self.data.frequency[self.order] * factor,
@@ -91,11 +91,13 @@ class Master:
 def unshifted(
     data: DmaData | TimeData, reference: float | None, vertical: Vertical, width: float
 ) -> Master:
-    """The isotherms side by side; the reference is the middle one by default.
+    """Return the isotherms without horizontal shifts; the reference is the middle one by default.
 
-    Storage and loss are weighed by the scatter of neighbouring values, with 1 % more that no
-    instrument is better than: a shift or a spectrum has no part in it, so data that contradict
-    the model keep their weight.
+    The errors of storage and loss are the scatter of neighbouring values, combined with a floor of
+    1 %
+    that no instrument improves on. This scatter does not depend on any shift or spectrum, so data
+    that
+    contradict the model keep their weight.
     """
     groups = tuple(data.isotherms(width))
     temperatures = np.array([float(np.mean(data.temperature[g])) for g in groups])
@@ -115,11 +117,12 @@ def unshifted(
 
 
 def scatter(master: Master) -> tuple[float, float] | None:
-    """Relative scatter of storage and loss between neighbours; None where too few tell it.
+    """Return the relative scatter of storage and loss between neighbours; None with too few.
 
-    Over any four neighbouring frequencies of an isotherm the third divided difference of ln
-    modulus over ln frequency vanishes for a smooth curve (it removes a parabola); over the root
-    of the sum of squares of its coefficients it has the standard deviation of the noise.
+    For any four neighbouring frequencies of an isotherm, the third divided difference of ln modulus
+    over ln frequency removes a parabola and nearly vanishes for a smooth curve. Divided by the root
+    of
+    the sum of squares of its coefficients, it has the standard deviation of the noise.
     """
     found = [list(_thirds(master, values)) for values in (master.data.storage, master.data.loss)]
     if len(found[0]) < _LEAST_WINDOWS:
@@ -142,8 +145,10 @@ def _thirds(master: Master, values: Array) -> Iterator[float]:
 def robust_weights(master: Master) -> Master:
     """Return the master curve with less weight on outlying measurements (Geman & McClure 1987).
 
-    The weight of a residual r of the standard deviation s is 1/(1 + (r/(3 s))^2), with s from the
-    median of all sizes, so that rows far off do not set it; five rounds of a rich spectrum.
+    The weight of a residual r is 1/(1 + (r/(3 s))^2), where the standard deviation s comes from the
+    median of the absolute residuals, so that outliers do not determine it. Five rounds, each a fit
+    of a
+    spectrum with many terms.
     """
     plain = replace(master, weights=None)
     data = plain.reduced

@@ -32,7 +32,7 @@ def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:
     Returns
     -------
     Figure
-        180 by 150 mm, outside pyplot.
+        180 by 150 mm, not registered with pyplot.
     """
     figure = page(style, _HEIGHT)
     (master, shifts), (phase, deviation) = figure.subplots(2, 2)
@@ -44,7 +44,7 @@ def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:
 
 
 def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw storage and loss modulus over reduced frequency, with the material as curves."""
+    """Draw storage and loss modulus over reduced frequency, with the fitted material as curves."""
     ax, look = prepare(ax, style)
     colours, data = look.palette, fit.master.reduced
     frequency = data.omega / (2.0 * np.pi)
@@ -78,18 +78,18 @@ def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
 
 
 def _at_reference(key: str, reference: float) -> str:
-    """Return the axis of a quantity that is shifted to the reference temperature [degC]."""
+    """Return the axis label of a quantity shifted to the reference temperature [degC]."""
     figure = MEASURED[key]
     return figure.axis_for(f"{figure.label} at {reference:g} {MEASURED['temperature'].shown_unit}")
 
 
 def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
-    """Draw a relaxation modulus or creep compliance over reduced time, with the material.
+    """Draw a relaxation modulus or creep compliance over reduced time, with the fitted material.
 
     Returns
     -------
     Figure
-        88 by 66 mm, outside pyplot.
+        88 by 66 mm, not registered with pyplot.
     """
     figure = page(style, 66.0, 0.49 * FULL)
     ax, look = prepare(figure.subplots(), style)
@@ -116,7 +116,7 @@ def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
 
 
 def plot_shifts(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw the shift of each isotherm by itself, with two standard errors, and the law."""
+    """Draw the independent shift of each isotherm with two standard errors, and the law."""
     ax, look = prepare(ax, style)
     colours, master = look.palette, fit.master
     if fit.shift.law is not None:
@@ -146,10 +146,11 @@ def plot_shifts(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
 
 
 def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw phase over size of the complex modulus (van Gurp & Palmen 1998), coloured by isotherm.
+    """Draw phase over magnitude of the complex modulus (van Gurp & Palmen 1998), by isotherm.
 
-    Frequency does not enter: isotherms that do not fall on one curve cannot be shifted onto one
-    another along the frequency alone.
+    The frequency does not enter: isotherms that do not fall on one curve cannot be made to coincide
+    by
+    shifts along the frequency axis alone.
     """
     ax, look = prepare(ax, style)
     master, data = fit.master, fit.master.data
@@ -180,7 +181,7 @@ def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) 
 
 
 def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw by how much measured moduli lie above those of the material, in per cent."""
+    """Draw the deviation of the material from the measured moduli in per cent of the latter."""
     ax, look = prepare(ax, style)
     colours, data = look.palette, fit.master.reduced
     storage, loss = relative_deviations(fit.material, data)
@@ -202,7 +203,7 @@ def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = No
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
     across = _at_reference("frequency", fit.master.reference)
     label(ax, look, across, MEASURED["deviation"].axis)
-    # Points are everywhere: what they are stands above them.
+    # The points fill the axes, so the legend stands above them.
     _legend(ax, look, above=True)
     return ax
 

@@ -15,15 +15,15 @@ from rollnip.materials import FractionalZener, Prony
 
 Array = NDArray[np.float64]
 
-RMS_LIMIT = 0.05  # relative deviation of a modulus over all rows that passes without a warning
-ROW_LIMIT = 0.20  # and of a single row
-_OUTLYING = 5.0  # standard deviations (from the median) that make a row an outlying one
-_MAD = 1.4826  # standard deviation over the median of the sizes, for a normal distribution
-_CLOSE = 1.5  # deviation over the scatter of neighbours that is no departure
-_SHOWN = 3  # outlying rows named
-_PLATEAU = 0.3  # tan delta at the lowest frequencies; the storage modulus falls by 1.5 a decade
-_STILL = 0.5  # relaxed modulus over the least storage modulus
-_LOW = 10.0**0.5  # half a decade: the lowest frequencies
+RMS_LIMIT = 0.05  # relative rms deviation of a modulus beyond which a warning is given
+ROW_LIMIT = 0.20  # relative deviation of a single row beyond which a warning is given
+_OUTLYING = 5.0  # standard deviations (from the median) that make a row an outlier
+_MAD = 1.4826  # standard deviation over the median absolute value of a normal distribution
+_CLOSE = 1.5  # rms deviation over the scatter of neighbours that still counts as following the data
+_SHOWN = 3  # outlying rows named in a warning
+_PLATEAU = 0.3  # tan delta at which the storage modulus falls by a factor of 1.5 per decade
+_STILL = 0.5  # least relaxed modulus over the storage modulus at the lowest frequencies
+_LOW = 10.0**0.5  # the lowest frequencies are those of the first half decade
 NAMES = ("storage", "loss")
 
 
@@ -35,8 +35,8 @@ class Quality:
     ----------
     rms : rms deviation of storage and loss modulus, over all rows.
     largest : largest deviation of storage and loss modulus, with its sign.
-    rows : in which row of the data each of the largest stands.
-    outlying : rows that depart by more than 20 % and five standard deviations, largest first.
+    rows : the row of the data in which each of the largest occurs.
+    outlying : rows that deviate by more than 20 % and five standard deviations, largest first.
     """
 
     rms: tuple[float, float]
@@ -53,7 +53,7 @@ def relative_deviations(material: Prony | FractionalZener, data: Reduced) -> tup
 
 
 def judged(material: Prony | FractionalZener, master: Master) -> Quality:
-    """Return the deviation of the material from every row, whatever its weight in the fit."""
+    """Return the deviations of the material from all rows, whatever their weight in the fit."""
     both = relative_deviations(material, master.reduced)
     where = [int(np.argmax(np.abs(one))) for one in both]
     return Quality(
@@ -65,7 +65,7 @@ def judged(material: Prony | FractionalZener, master: Master) -> Quality:
 
 
 def outlying_rows(master: Master, deviations: Sequence[Array]) -> tuple[str, ...]:
-    """Rows of which one deviation exceeds 20 % and five standard deviations, largest first."""
+    """Return the rows with a deviation of over 20 % and five standard deviations, largest first."""
     far = np.zeros(deviations[0].size)
     for one in deviations:
         typical = max(_OUTLYING * _MAD * float(np.median(np.abs(one))), ROW_LIMIT)
@@ -77,7 +77,7 @@ def outlying_rows(master: Master, deviations: Sequence[Array]) -> tuple[str, ...
 def quality_warnings(
     quality: Quality, noise: tuple[float, float] | None, *, best: bool, other: str
 ) -> list[str]:
-    """Return warnings where the material departs from the data by over 5 % rms or 20 % in a row.
+    """Return warnings where the material deviates from the data by over 5 % rms or 20 % in a row.
 
     Parameters
     ----------
@@ -86,9 +86,9 @@ def quality_warnings(
     noise :
         relative scatter of neighbouring values of storage and loss; None where it is not known.
     best :
-        whether no other spectrum would follow the data closer.
+        whether no other spectrum would follow the data more closely.
     other :
-        what would follow them closer, otherwise.
+        otherwise, a sentence on what would.
     """
     said = [
         f"The material departs from the data by {_percent(rms)} rms in the {name} modulus "
@@ -122,9 +122,10 @@ def quality_warnings(
 def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[str]:
     """Return a warning where the data end before the modulus has relaxed.
 
-    Where E* goes as a power of the frequency, its phase is 90 degrees times the exponent (Booij &
-    Thoone 1982, Rheol. Acta 21, 15-24): at tan delta = 0.3 the storage modulus still falls by a
-    factor of 1.5 a decade, so what lies below the data is a guess.
+    Where E* is a power of the frequency, its phase is 90 degrees times the exponent (Booij & Thoone
+    1982, Rheol. Acta 21, 15-24). At tan delta = 0.3 the storage modulus still falls by a factor of
+    1.5
+    per decade, so values below the data are a guess.
     """
     data = master.reduced
     low = data.omega <= _LOW * float(np.min(data.omega))
@@ -143,7 +144,7 @@ def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[
 
 
 def row_of(master: Master, index: int) -> str:
-    """A reduced measurement as messages name it: its row, temperature, frequency or time."""
+    """Return a reduced measurement as messages name it: row, temperature, frequency or time."""
     data, at = master.data, int(master.order[index])
     when = (
         f"{data.time[at]:.3g} s" if isinstance(data, TimeData) else f"{data.frequency[at]:.3g} Hz"

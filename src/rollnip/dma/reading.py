@@ -1,4 +1,4 @@
-"""A file of measurements as it was understood: tables, columns, and what was left out."""
+"""How a file of measurements was understood: tables, columns, and what was left out."""
 
 from __future__ import annotations
 
@@ -35,20 +35,20 @@ _OVER_TIME: tuple[tuple[MeasuredQuantity, Kind], ...] = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadTable:
-    """One table as understood.
+    """One table as it was understood.
 
     Attributes
     ----------
     name : name of the sheet or step, with its number.
     line : line of its heads.
     heads : heads of all columns.
-    used : index of the column of each quantity that is used.
-    values : (n,) of each quantity in base units: Hz, degC, MPa, rad, s, 1/MPa.
-    rows : where each of the n rows stands.
+    used : column index of each quantity that is used.
+    values : (n,) values of each quantity in base units: Hz, degC, MPa, rad, s, 1/MPa.
+    rows : location of each of the n rows.
     kind : kind of measurement; None where the table cannot be used.
-    modulus : E or G, where the heads say it.
-    notes : what was taken from elsewhere, or left out.
-    problem : why the table is none of measurements that are known; empty where it is.
+    modulus : E or G, where the heads say which.
+    notes : values taken from outside the table, and rows left out.
+    problem : why the table holds no known kind of measurement; empty where it does.
     fault : the error in a table that cannot be used.
     """
 
@@ -67,15 +67,15 @@ class ReadTable:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Reading:
-    """A file of measurements as understood.
+    """A file of measurements as it was understood.
 
     Attributes
     ----------
     source : name of the file.
     encoding, separator : of a text file, in words; empty for a workbook.
-    decimal_comma : whether a comma was read as a decimal one.
-    tables : in the order of the file.
-    passed : lines that belong to no table.
+    decimal_comma : whether commas were read as decimal commas.
+    tables : the tables in the order of the file.
+    passed : numbers of the lines that belong to no table.
     """
 
     source: str
@@ -91,7 +91,7 @@ class Reading:
         Raises
         ------
         InvalidInputError
-            where there is none, saying what each table lacks.
+            where there is none; the message says what each table lacks.
         """
         for number in numbers:
             if not 1 <= number <= len(self.tables):
@@ -137,21 +137,21 @@ def read_tables(
     frequency: float | None = None,
     sheet: str | None = None,
 ) -> Reading:
-    """Find and understand the tables of measurements in a text file or workbook.
+    """Find and interpret the tables of measurements in a text file or workbook.
 
     Parameters
     ----------
     path :
         path of the file.
     temperature, frequency :
-        of all measurements [degC, Hz], where there is no such column.
+        value for all measurements [degC, Hz], where there is no such column.
     sheet :
-        the only one of a workbook that is read; all by default.
+        the one sheet of a workbook to read; all by default.
 
     Raises
     ------
     InvalidInputError
-        where the file cannot be read, a unit is missing or a cell is no number.
+        where the file cannot be read, or does not have the given sheet.
     """
     cells = _sheets(read_cells(path), sheet)
     raw, passed = find_tables(cells, Path(path).suffix.lower())
@@ -222,7 +222,12 @@ def _understood(
 
 
 def _columns(table: RawTable, source: str) -> dict[MeasuredQuantity, int]:
-    """Return the column of each quantity; of several, the first whose name is not there twice."""
+    """Return the column of each quantity.
+
+    Of step time and time, and of a frequency in Hz and in rad/s, the first column is used; any
+    other
+    quantity with two columns is an error.
+    """
     found: dict[MeasuredQuantity, int] = {}
     for index, head in enumerate(table.heads):
         quantity = head.quantity
@@ -231,7 +236,7 @@ def _columns(table: RawTable, source: str) -> dict[MeasuredQuantity, int]:
         if quantity in found:
             first = table.heads[found[quantity]]
             if quantity == "time" or head.angular != first.angular:
-                continue  # step time before time; Hz and rad/s say the same
+                continue  # step time precedes time; Hz and rad/s are the same quantity
             raise InvalidInputError(
                 f'{source}, line {table.line}: columns "{first.text}" and "{head.text}" both say '
                 f"{SHOWN[quantity]}; rename the one that is not to be used."
@@ -243,7 +248,7 @@ def _columns(table: RawTable, source: str) -> dict[MeasuredQuantity, int]:
 def _kind(
     columns: dict[MeasuredQuantity, int], given: dict[MeasuredQuantity, float], table: RawTable
 ) -> tuple[Kind | None, dict[MeasuredQuantity, int], str]:
-    """Kind of measurement, the columns that it uses, or what is lacking."""
+    """Return the kind of measurement and the columns it uses, or a sentence on what is missing."""
     temperature = {k: i for k, i in columns.items() if k == "temperature"}
     way = next((way for way in _WAYS if all(one in columns for one in way)), None)
     if way is not None:
@@ -300,7 +305,7 @@ def _add_known(
     given: dict[MeasuredQuantity, float],
     source: str,
 ) -> list[str]:
-    """Add temperature and frequency of the whole table, where they have no column; say it."""
+    """Add temperature and frequency where the whole table has one value; return notes on it."""
     notes: list[str] = []
     count = len(table.rows)
     needed: tuple[MeasuredQuantity, ...] = ("temperature", "frequency")

@@ -1,7 +1,7 @@
-"""Time-temperature shifts: laws, free shifts, and the spectrum that both share.
+"""Time-temperature shifts, by a law or free, and the spectrum that all isotherms share.
 
-Whatever the shifts, the best spectrum follows by non-negative least squares; so only the shifts
-are searched (variable projection, Golub & Pereyra 1973).
+For any shifts, the best spectrum follows by non-negative least squares; so only the shifts are
+search variables (variable projection, Golub & Pereyra 1973).
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ Array = NDArray[np.float64]
 Law = Literal["wlf", "arrhenius", "none"]
 
 _ZERO = 273.15  # degC in K
-_CLEAR = 1.0  # K by which the pole of WLF lies below the coldest measurement at least
-_SLOPES = (0.02, 0.04, 0.08, 0.15, 0.3)  # C1/C2 [decades/K] tried
-_ROOMS = (5.0, 20.0, 60.0, 150.0, 500.0)  # C2 beyond its least value [K] tried
-_MOST_ROOM = 3000.0  # K: beyond it WLF is a straight line
-_ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # kJ/mol tried
-_LARGEST = 30.0  # decades of shift at a start
-_LARGEST_LEVEL = 3.0  # factor on the moduli of an isotherm
-_STEP = 1e-4
-_FOLDS, _LEAST_FOLDS = 10, 4  # groups of isotherms left out together
+_CLEAR = 1.0  # K, least distance of the pole of WLF below the coldest isotherm
+_SLOPES = (0.02, 0.04, 0.08, 0.15, 0.3)  # starts of C1/C2 [decades/K]
+_C2_MARGINS = (5.0, 20.0, 60.0, 150.0, 500.0)  # starts of C2 less its least value [K]
+_LARGEST_C2_MARGIN = 3000.0  # K: beyond it WLF is a straight line
+_ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # starts of the activation energy [kJ/mol]
+_LARGEST = 30.0  # decades, largest shift accepted
+_LARGEST_LEVEL = 3.0  # largest factor on the moduli of an isotherm
+_STEP = 1e-4  # of finite differences
+_FOLDS, _LEAST_FOLDS = 10, 4  # groups of isotherms that are left out in turn
 _LN10 = log(10.0)
 
 
@@ -42,10 +42,10 @@ class ShiftFit:
 
     Attributes
     ----------
-    law : with its constants; None where there is one temperature only.
+    law : the law with its constants; None where there is only one temperature.
     names : names of the constants.
     values, standard_errors : constants and their errors (C1 and C2 [K], or the energy [kJ/mol]).
-    master : the data shifted by it.
+    master : the data shifted by the law.
     """
 
     law: WLF | Arrhenius | None
@@ -56,18 +56,22 @@ class ShiftFit:
 
 
 def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
-    """Constants of a shift law, by the spectrum that all isotherms must share.
+    """Fit the constants of a shift law so that one spectrum describes all isotherms best.
 
-    With ``levels`` the moduli of each isotherm get a factor, too.
+    With ``levels``, each isotherm also gets a factor on its moduli.
 
-    C2 is bounded so that the pole of WLF, at the reference less C2, lies 1 K or more below the
-    coldest measurement: started without that bound, at the "universal" constants say, a search
-    may end on the wrong side of the pole.
+    C2 is bounded so that the pole of WLF, at the reference less C2, lies at least 1 K below the
+    coldest
+    isotherm. Without this bound a search, started for instance from the "universal" constants, may
+    end
+    on the wrong side of the pole.
 
     Raises
     ------
     InvalidInputError
-        where the data cannot tell shifts: one temperature, or one frequency.
+        where the data cannot determine shifts: several temperatures without a law, only one
+        frequency
+        at each temperature, or a reference too far from the data.
     """
     if law == "none" or master.temperatures.size == 1:
         if master.temperatures.size > 1:
@@ -82,22 +86,23 @@ def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
     size = shape.bounds[0].size
     x, vertical = found.x[:size], master.vertical.copy()
     if levels:
-        vertical[_moved(master)] = found.x[size:]
+        vertical[_is_moved(master)] = found.x[size:]
         # 1 at the reference itself, which may lie between two isotherms
         vertical -= np.interp(master.reference, master.temperatures, vertical)
     fitted = replace(master, horizontal=shape.shifts(x), vertical=vertical)
     values, slopes = shape.constants(x), shape.slopes(x)
     within = np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T)
-    errors = np.sqrt(np.maximum(within, _between(fitted, law, x)))
+    errors = np.sqrt(np.maximum(within, _jackknife_variances(fitted, law, x)))
     return ShiftFit(shape.law(values), shape.names, values, tuple(float(e) for e in errors), fitted)
 
 
-def _between(master: Master, law: Law, x: Array) -> Array:
-    """Variances of the constants from leaving out isotherms, a tenth of them at a time.
+def _jackknife_variances(master: Master, law: Law, x: Array) -> Array:
+    """Return the variances of the constants from leaving out a tenth of the isotherms at a time.
 
-    The delete-a-group jackknife: (k - 1)/k times the sum of squares about the mean. What all
-    values of an isotherm share (its temperature, how the sample sits in the clamps) moves the
-    constants more than the noise of single values, and only this sees it. Zero where there are
+    This is the delete-a-group jackknife: (k - 1)/k times the sum of squares about the mean. Errors
+    common to all values of an isotherm (its temperature, how the sample is clamped) move the
+    constants
+    more than the noise of single values, and only this estimate includes them. Zero where there are
     fewer than four isotherms.
 
     References
@@ -107,13 +112,13 @@ def _between(master: Master, law: Law, x: Array) -> Array:
     count = min(master.temperatures.size, _FOLDS)
     if count < _LEAST_FOLDS:
         return np.zeros(x.size)
-    times, least = _times(master, 1.0), _least(master)
+    times, least = _times(master, 1.0), _least_c2(master)
     found = []
     for k in range(count):
         kept = np.flatnonzero(np.arange(master.temperatures.size) % count != k)
         part = master.at(kept)
         shape = _Wlf(part) if law == "wlf" else _ArrheniusShift(part)
-        shape.least = least  # the same variables: the bound on C2 stays that of all isotherms
+        shape.least = least  # keep the bound on C2 of all isotherms, so that x means the same
 
         def residuals(
             y: Array, part: Master = part, shape: _Wlf | _ArrheniusShift = shape
@@ -129,11 +134,11 @@ def _between(master: Master, law: Law, x: Array) -> Array:
 
 
 def fit_free(start: Master) -> tuple[Master, Array]:
-    """Shifts of each isotherm by itself, from those of a law; their standard errors (m,).
+    """Shift each isotherm independently, starting from a law; return the standard errors (m,) too.
 
-    The isotherm nearest to the reference stays where it is, and so do all moduli.
+    The isotherm nearest to the reference is held, and so are all moduli.
     """
-    moved = _moved(start)
+    moved = _is_moved(start)
 
     def placed(x: Array) -> Master:
         horizontal = start.horizontal.copy()
@@ -153,14 +158,14 @@ def fit_free(start: Master) -> tuple[Master, Array]:
     return placed(found.x), errors
 
 
-def _moved(master: Master) -> NDArray[np.bool_]:
+def _is_moved(master: Master) -> NDArray[np.bool_]:
     """Return a mask (m,) that is true for all isotherms but the one nearest to the reference."""
     held = int(np.argmin(np.abs(master.temperatures - master.reference)))
     return np.asarray(np.arange(master.temperatures.size) != held)
 
 
 def _times(master: Master, margin: float) -> Array:
-    """Relaxation times (m,) over the reduced range, ``margin`` decades more on either side."""
+    """Return relaxation times (m,) over the reduced range and ``margin`` decades beyond it."""
     omega = master.reduced.omega
     wide = np.array([np.min(omega) * 10.0**-margin, np.max(omega) * 10.0**margin])
     count = most_terms(np.repeat(wide, omega.size))
@@ -168,9 +173,9 @@ def _times(master: Master, margin: float) -> Array:
 
 
 def _searched(master: Master, shape: _Wlf | _ArrheniusShift, *, levels: bool) -> OptimizeResult:
-    """Constants of a law, then levels where wanted: the best of the starts, followed."""
+    """Fit the constants of a law, then the levels where wanted, starting from the best start."""
     size = shape.bounds[0].size
-    moved = _moved(master)
+    moved = _is_moved(master)
 
     def placed(x: Array) -> Master:
         vertical = master.vertical.copy()
@@ -199,7 +204,7 @@ def _searched(master: Master, shape: _Wlf | _ArrheniusShift, *, levels: bool) ->
                 np.concatenate([bounds[0], -reach]),
                 np.concatenate([bounds[1], reach]),
             )
-        # the relaxation times are those that the shifts found last ask for
+        # relaxation times for the range that the latest shifts span
         times = _times(placed(x), 1.0)
         found = least_squares(
             misfit, x, bounds=bounds, diff_step=_STEP, ftol=1e-9, xtol=1e-9, args=(times,)
@@ -219,7 +224,7 @@ def _too_far(master: Master) -> InvalidInputError:
 
 
 def _covariance(found: OptimizeResult) -> Array:
-    """Return the covariance of the fitted shifts, enlarged where residuals exceed their errors."""
+    """Return the covariance of the fit variables, enlarged where residuals exceed their errors."""
     jacobian: Array = found.jac
     _, values, right = np.linalg.svd(jacobian, full_matrices=False)
     kept = values > 1e-10 * values[0]
@@ -229,26 +234,26 @@ def _covariance(found: OptimizeResult) -> Array:
     return np.asarray(scale * (right.T * inverse**2) @ right)
 
 
-def _least(master: Master) -> float:
-    """C2 [K] with which the pole of WLF lies right below the coldest measurement."""
+def _least_c2(master: Master) -> float:
+    """Return the C2 [K] for which the pole of WLF lies just below the coldest isotherm."""
     return max(master.reference - float(np.min(master.temperatures)), 0.0) + _CLEAR
 
 
 class _Wlf:
-    """WLF with x = (ln of the slope C1/C2, ln of C2 less its least value)."""
+    """WLF law with the variables x = (ln of the slope C1/C2, ln of C2 less its least value)."""
 
     names = ("c1", "c2")
 
     def __init__(self, master: Master) -> None:
         self.reference = master.reference
         self.away = master.temperatures - master.reference
-        self.least = _least(master)
-        self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _ROOMS)]
-        low, high = np.log([1e-4, 1e-2]), np.log([10.0, _MOST_ROOM])
+        self.least = _least_c2(master)
+        self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _C2_MARGINS)]
+        low, high = np.log([1e-4, 1e-2]), np.log([10.0, _LARGEST_C2_MARGIN])
         self.bounds = (low, high)
 
     def shifts(self, x: Array) -> Array:
-        """log10 a_T, (m,)."""
+        """Return log10 a_T, (m,)."""
         c1, c2 = self.constants(x)
         return np.asarray(-c1 * self.away / (c2 + self.away))
 
@@ -257,7 +262,7 @@ class _Wlf:
         return exp(float(x[0])) * c2, c2
 
     def slopes(self, x: Array) -> Array:
-        """(2, 2) derivatives of C1 and C2."""
+        """Return the (2, 2) derivatives of C1 and C2 with respect to x."""
         slope, room = exp(float(x[0])), exp(float(x[1]))
         c1, _ = self.constants(x)
         return np.array([[c1, slope * room], [0.0, room]])
@@ -267,7 +272,7 @@ class _Wlf:
 
 
 class _ArrheniusShift:
-    """Arrhenius with x = (ln of the activation energy,)."""
+    """Arrhenius law with the variable x = (ln of the activation energy,)."""
 
     names = ("activation_energy",)
 
@@ -280,14 +285,14 @@ class _ArrheniusShift:
         self.bounds = (np.log([0.1]), np.log([3000.0]))
 
     def shifts(self, x: Array) -> Array:
-        """log10 a_T, (m,)."""
+        """Return log10 a_T, (m,)."""
         return np.asarray(exp(float(x[0])) * self.per_energy)
 
     def constants(self, x: Array) -> tuple[float, ...]:
         return (exp(float(x[0])),)
 
     def slopes(self, x: Array) -> Array:
-        """(1, 1) derivative of the energy."""
+        """Return the (1, 1) derivative of the energy with respect to x."""
         return np.array([[exp(float(x[0]))]])
 
     def law(self, values: tuple[float, ...]) -> Arrhenius:

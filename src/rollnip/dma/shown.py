@@ -1,4 +1,4 @@
-"""How a file of measurements was understood: in lines for people, as a tree for programs."""
+"""How a file of measurements was understood, as lines for people or as a tree for programs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ KINDS: Mapping[str, str] = {
 """What a table of each kind holds."""
 UNITS = {"frequency": "Hz", "temperature": "degC", "time": "s", "phase": "rad", "tan delta": ""}
 """Base units of the quantities that are not in MPa."""
-_NAMED = 6  # lines, of those left out
+_NAMED = 6  # most line numbers that are listed
 
 
 def description_lines(reading: Reading) -> Iterator[str]:
@@ -99,12 +99,12 @@ def _shown_columns(table: ReadTable) -> Iterator[str]:
 
 
 def counted(number: int, name: str) -> str:
-    """Return a number with its noun."""
+    """Return a number with its noun, in the singular or plural."""
     return f"{number} {name}{'' if number == 1 else 's'}"
 
 
 def named_lines(lines: Sequence[int]) -> str:
-    """Return the numbers of the first lines of some."""
+    """Return the numbers of the first few of these lines, as text."""
     shown = ", ".join(str(line) for line in lines[:_NAMED])
     word = "line" if len(lines) == 1 else "lines"
     return f"{word} {shown}{', ...' if len(lines) > _NAMED else ''}"

@@ -1,4 +1,4 @@
-"""Relaxation spectra by non-negative least squares, as smooth as the data bear."""
+"""Relaxation spectra by non-negative least squares, as smooth as cross-validation asks."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Array = NDArray[np.float64]
 Measured = Literal["dynamic", "relaxation", "creep"]
 
 _FOLDS = 5
-_TOLD = 1e-6  # size of a column over the largest, below which the data do not determine its term
-# Terms at most, and at least: evenly spaced equal terms ripple in the loss modulus by the part
-# 2/cosh(pi^2/ln spacing), 5 % with one a decade, .6 % with one and a half.
+_LEAST_NORM = 1e-6  # of a column over the largest; below it the data do not determine its term
+# Most and fewest terms per decade: equal terms, evenly spaced, make the loss modulus ripple by the
+# fraction 2/cosh(pi^2/ln spacing), 5 % with one term per decade, 0.6 % with one and a half.
 _PER_DECADE, _LEAST_PER_DECADE = 3.0, 1.5
 _MARGIN = 10.0**0.5  # factor by which relaxation times reach beyond the data
 _MOST_TERMS = 80
@@ -29,10 +29,10 @@ class Reduced:
     Attributes
     ----------
     omega : (n,) reduced angular frequency [rad/s], or the reciprocal of the time [1/s].
-    storage, loss : (n,) [MPa]; the relaxation modulus [MPa] or creep compliance [1/MPa] both,
-        where one of these was measured.
+    storage, loss : (n,) moduli [MPa]; both are the relaxation modulus [MPa] or the creep compliance
+        [1/MPa] where that was measured.
     errors : relative standard errors of storage and loss.
-    weights : (n,) by which the residuals of a measurement are multiplied; all 1 by default.
+    weights : (n,) factors on the residuals of each measurement; all 1 by default.
     kind : kind of measurement.
     """
 
@@ -45,9 +45,11 @@ class Reduced:
 
     @property
     def target(self) -> Array:
-        """(2 n,) storage over its error, then loss over its error: both relative, 1/error.
+        """(2 n,) right-hand side of the fit: 1/error of storage, then of loss, times the weights.
 
-        (n,) of a relaxation modulus or a creep compliance.
+        Rows are divided by the measured value and its relative error. (n,) for a relaxation modulus
+        or a
+        creep compliance.
         """
         ones = np.ones(self.omega.size) if self.weights is None else self.weights
         if self.kind != "dynamic":
@@ -55,9 +57,9 @@ class Reduced:
         return np.concatenate([ones / self.errors[0], ones / self.errors[1]])
 
     def design(self, times: Array) -> Array:
-        """(2 n, m + 1): what the relaxed modulus and each term add to the target.
+        """Return what the relaxed modulus and each term contribute to the target, (2 n, m + 1).
 
-        (n, m + 1) of a relaxation modulus, E + sum E_i e^(-t/tau_i), or of a creep compliance,
+        (n, m + 1) for a relaxation modulus, E + sum E_i e^(-t/tau_i), or for a creep compliance,
         J + sum J_i (1 - e^(-t/tau_i)), with the instantaneous compliance first.
         """
         if self.kind != "dynamic":
@@ -87,43 +89,51 @@ class Reduced:
 
 
 def relaxation_times(omega: Array, count: int) -> Array:
-    """``count`` times, evenly on a logarithmic scale, half a decade beyond the data [s]."""
+    """Return ``count`` times [s], evenly spaced on a logarithmic scale.
+
+    They reach half a decade beyond the data on both sides.
+    """
     first, last = 1.0 / (float(np.max(omega)) * _MARGIN), _MARGIN / float(np.min(omega))
     return np.geomspace(first, last, count) if count > 1 else np.array([np.sqrt(first * last)])
 
 
 def most_terms(omega: Array) -> int:
-    """Three terms a decade, half a decade beyond the data on both sides."""
+    """Return the number of terms at three per decade, half a decade beyond the data on both sides.
+
+    It is at most 80 and at most the number of measurements.
+    """
     decades = np.log10(float(np.max(omega)) / float(np.min(omega))) + 1.0
     return int(min(max(np.ceil(_PER_DECADE * decades), 1), _MOST_TERMS, omega.size))
 
 
 def non_negative(data: Reduced, times: Array, smoothing: float = 0.0) -> tuple[Array, Array]:
-    """Moduli (m + 1,), the relaxed one first, and residuals of the best fit, as the target.
+    """Return the best-fitting moduli (m + 1,), the relaxed one first, and the residuals.
 
-    ``smoothing`` weighs the second differences of neighbouring terms, each over the storage
-    modulus measured at its frequency, against the residuals (Tikhonov 1963).
+    The residuals are those of ``Reduced.target``. ``smoothing`` weights the second differences of
+    neighbouring terms, each over the storage modulus measured at its frequency, against the
+    residuals
+    (Tikhonov 1963).
     """
     design, target = data.design(times), data.target
     whole, aim = design, target
     if smoothing > 0.0 and times.size > 2:
-        rows = smoothing * _curvature(data, times)
+        rows = smoothing * _second_differences(data, times)
         whole = np.concatenate([design, rows])
         aim = np.concatenate([target, np.zeros(rows.shape[0])])
-    # columns of one size: the solver's thresholds are absolute
+    # normalise the columns, since the solver's thresholds are absolute
     scale = np.linalg.norm(whole, axis=0)
-    told = scale > _TOLD * float(np.max(scale))
-    scale[~told] = np.inf  # a term that has decayed before the data begin stays zero
+    is_determined = scale > _LEAST_NORM * float(np.max(scale))
+    scale[~is_determined] = np.inf  # a term that has decayed before the data begin stays zero
     try:
         moduli, _ = nnls(whole / scale, aim, maxiter=30 * scale.size)
-    except RuntimeError:  # its active set cycled; slower, and as good
+    except RuntimeError:  # its active set cycled; this solver is slower and as good
         moduli = np.maximum(lsq_linear(whole / scale, aim, bounds=(0.0, np.inf)).x, 0.0)
     moduli = moduli / scale
     return moduli, design @ moduli - target
 
 
-def _curvature(data: Reduced, times: Array) -> Array:
-    """(m - 2, m + 1): second differences of the terms over the storage modulus there."""
+def _second_differences(data: Reduced, times: Array) -> Array:
+    """Return (m - 2, m + 1): second differences of the terms over the local storage modulus."""
     order = np.argsort(data.omega)
     log_omega, log_storage = np.log(data.omega[order]), np.log(data.storage[order])
     storage = np.exp(np.interp(-np.log(times), log_omega, log_storage))
@@ -132,17 +142,21 @@ def _curvature(data: Reduced, times: Array) -> Array:
 
 
 def crossvalidated(data: Reduced) -> tuple[int, float, Array]:
-    """Number of terms and smoothing that best predict what they were not fitted to.
+    """Return the number of terms and the smoothing that best predict held-out data.
 
-    Tried are one and a half to three terms a decade, each free, which follow a spectrum of single
-    lines, and three a decade, more or less smoothed, which follow a continuous one without
-    ripples. Five folds, the same every time. What lies within half a decade of the ends is never
-    left out: without it a spectrum would have to extrapolate, which tells nothing of the terms.
+    Candidates are one and a half to three terms per decade without smoothing, which follow a
+    spectrum
+    of discrete lines, and three per decade with various degrees of smoothing, which follow a
+    continuous
+    spectrum without ripples. Five folds, the same every time. Data within half a decade of the ends
+    are
+    never held out: predicting them would be extrapolation, which says nothing about the terms.
 
     Returns
     -------
-    number of terms, smoothing, and the mean square (k,) of what was left out for each try; no
-    mean squares where there are too few data to leave some out.
+    number of terms, smoothing, and for each candidate the mean square (k,) of the residuals of
+    held-out
+    data; empty where there are too few data to hold some out.
     """
     most = most_terms(data.omega)
     least = min(int(np.ceil(_LEAST_PER_DECADE / _PER_DECADE * most)), most)
@@ -160,7 +174,7 @@ def crossvalidated(data: Reduced) -> tuple[int, float, Array]:
 
 
 def _held_out(data: Reduced, count: int, strength: float, fold: NDArray[np.int64]) -> float:
-    """Mean square of what a fit without it leaves of each fold."""
+    """Return the mean square of the residuals of each fold in a fit without it."""
     times = relaxation_times(data.omega, count)
     squares = 0.0
     for k in range(_FOLDS):

@@ -1,4 +1,4 @@
-"""The tables of measurements in the cells of a file: where each begins, what its columns are."""
+"""The tables of measurements in the cells of a file: where each begins, and its columns."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from rollnip.io.columns import Cell
 
 Array = NDArray[np.float64]
 
-_LEAST_HEADS = 2  # columns known by their heads that make a row one of heads
+_LEAST_HEADS = 2  # recognised heads that make a row the heads of a table
 _STEP = re.compile(r"\[\s*step\s*\]", re.IGNORECASE)
 _DEGREES = re.compile(r"([+\-\u2212]?\d+(?:[.,]\d+)?)\s*(?:°|º|deg\.?\s?)\s?C\b(?!\s*/)")
 _KEYED = re.compile(r"(?:^|[;,\s])T\s*=\s*([+\-\u2212]?\d+(?:[.,]\d+)?)\s*(?:[;,]|$)")
 _HERTZ = re.compile(r"(?:^|[^\d.,])(\d+(?:[.,]\d+)?)\s*Hz\b")
 _NUMBER = re.compile(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?")
 _MISSING = {"", "-", "--", "---", "n/a", "n. a.", "nan", "#n/a", "none", "null", "*", "n.a."}
-_POSITIONS = {  # what RepTate's columns are where a file has no heads, and its units
+_POSITIONS = {  # columns and units of RepTate's files, which may have no heads
     ".osc": (("w", "rad/s"), ("G'", "Pa"), ("G''", "Pa")),
     ".tts": (("w", "rad/s"), ("G'", "Pa"), ("G''", "Pa")),
     ".gt": (("t", "s"), ("G(t)", "Pa")),
@@ -40,8 +40,8 @@ class RawTable:
     line : line of its heads.
     heads : heads of all columns.
     rows : cells of each row of numbers.
-    lines : line of each.
-    temperature, frequency : (value [degC, Hz], line) said above the table; None where none is.
+    lines : line of each row.
+    temperature, frequency : (value [degC, Hz], line) stated above the table; None where not stated.
     """
 
     name: str
@@ -54,7 +54,7 @@ class RawTable:
 
 
 def find_tables(cells: Cells, suffix: str) -> tuple[list[RawTable], list[int]]:
-    """The tables of a file, and the lines that belong to none."""
+    """Return the tables of a file, and the lines that belong to none."""
     tables: list[RawTable] = []
     passed: list[int] = []
     for sheet in cells.sheets:
@@ -65,13 +65,13 @@ def find_tables(cells: Cells, suffix: str) -> tuple[list[RawTable], list[int]]:
 
 
 class _Finder:
-    """Walks down a sheet; knows what was said since the last table."""
+    """Scans a sheet from top to bottom and remembers what was stated since the last table."""
 
     def __init__(self, sheet: CellSheet, positions: tuple[tuple[str, str], ...] | None) -> None:
         self.sheet, self.positions = sheet, positions
         self.name = sheet.name
         self.facts: dict[str, tuple[float, int]] = {}
-        self.outer: dict[str, tuple[float, int]] = {}  # said before the first step
+        self.outer: dict[str, tuple[float, int]] = {}  # stated before the first step
         self.steps = 0
         self._note([sheet.name], 0)
 
@@ -85,7 +85,7 @@ class _Finder:
             row, line = rows[index], lines[index]
             heads = _heads(row)
             if heads is not None:
-                table, index = self._begun(heads, index)
+                table, index = self._new_table(heads, index)
                 found.append(table)
                 continue
             if table is None and not found and self.positions and _numbers(row) >= 2:
@@ -102,8 +102,8 @@ class _Finder:
             index += 1
         return found, passed
 
-    def _begun(self, heads: tuple[Head, ...], index: int) -> tuple[RawTable, int]:
-        """A new table, and the index of the row behind its heads and units."""
+    def _new_table(self, heads: tuple[Head, ...], index: int) -> tuple[RawTable, int]:
+        """Return a new table, and the index of the row after its heads and units."""
         rows, lines = self.sheet.rows, self.sheet.lines
         line, after = lines[index], index + 1
         if after < len(rows) and _is_unit_row(rows[after]):
@@ -125,7 +125,7 @@ class _Finder:
         )
 
     def _note(self, texts: Sequence[str], line: int) -> None:
-        """Take down a temperature or a frequency said outside of the tables."""
+        """Remember a temperature or frequency stated outside the tables, or begin a new step."""
         whole = " ".join(text for text in texts if text)
         if _STEP.search(whole):
             if self.steps == 0:
@@ -145,7 +145,7 @@ class _Finder:
 
 
 def _heads(row: Sequence[Cell]) -> tuple[Head, ...] | None:
-    """The heads, where the row is one of heads."""
+    """Return the heads if the row consists of heads, else None."""
     texts = [str(cell) for cell in row]
     if sum(len(text) > 0 for text in texts) < _LEAST_HEADS or _numbers(row) > 0:
         return None
@@ -167,7 +167,7 @@ def _is_unit_row(row: Sequence[Cell]) -> bool:
 
 
 def _is_data(row: Sequence[Cell], table: RawTable) -> bool:
-    """Return whether a row holds data: numbers or gaps under the heads that are needed."""
+    """Return whether a row holds data: mostly numbers or gaps under the heads that are used."""
     under = [
         cell
         for head, cell in zip(table.heads, row, strict=False)
@@ -186,26 +186,26 @@ def _is_number(cell: Cell) -> bool:
 
 
 def is_missing(cell: Cell) -> bool:
-    """Return whether a cell holds no value: it is empty or holds a mark that stands for that."""
+    """Return whether a cell holds no value: it is empty or holds a mark for a missing one."""
     return cell != cell if isinstance(cell, float) else cell.strip().lower() in _MISSING
 
 
 def column(table: RawTable, index: int, *, comma: bool, source: str) -> Array:
-    """Return the numbers of a column (n,), nan where there is none.
+    """Return the numbers of a column (n,), nan where one is missing.
 
     Parameters
     ----------
     table, index :
-        of the column.
+        the table, and the index of the column in it.
     comma :
-        whether a comma is a decimal one in this file.
+        whether this file uses decimal commas.
     source :
         name of the file, for messages.
 
     Raises
     ------
     InvalidInputError
-        naming the line of a cell that is neither a number nor empty.
+        where a cell is neither a number nor empty; the message names its line.
     """
     return np.array(
         [
@@ -236,7 +236,7 @@ def _value(cell: Cell, comma: bool, where: str) -> float:
 
 
 def has_decimal_commas(tables: Sequence[RawTable]) -> bool:
-    """Return whether numbers of the file hold commas, and none holds a point."""
+    """Return whether some numbers of the file hold a comma and none holds a point."""
     texts = list(_texts(tables))
     return any("," in text for text in texts) and not any("." in text for text in texts)
 

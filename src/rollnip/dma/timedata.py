@@ -1,4 +1,4 @@
-"""Relaxation and creep: a modulus or a compliance over the time since a sudden strain or stress."""
+"""Relaxation and creep: modulus or compliance over the time since a sudden strain or stress."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ class TimeData(Measured):
     ----------
     time : (n,) [s].
     temperature : (n,) [degC].
-    values : (n,) [MPa] of a relaxation modulus, [1/MPa] of a compliance.
+    values : (n,) relaxation modulus [MPa] or compliance [1/MPa].
     kind : "relaxation" or "creep".
     poisson, source, rows : as in `DmaData`.
 
     Raises
     ------
     InvalidInputError
-        as `DmaData`, or where ``kind`` is another.
+        as in `DmaData`, or where ``kind`` is unknown.
     """
 
     time: Array
@@ -53,17 +53,17 @@ class TimeData(Measured):
 
     @property
     def frequency(self) -> Array:
-        """(n,) 1/(2 pi time) [Hz]: where a dynamic measurement would see about the same."""
+        """(n,) 1/(2 pi time) [Hz], at which a dynamic measurement gives about the same modulus."""
         return np.asarray(1.0 / (2.0 * np.pi * self.time))
 
     @property
     def storage(self) -> Array:
-        """(n,) the values: they take the place of the storage modulus."""
+        """(n,) the values, which take the place of the storage modulus."""
         return self.values
 
     @property
     def loss(self) -> Array:
-        """(n,) the values again: nothing is measured beside them."""
+        """(n,) the values again, since no second quantity is measured."""
         return self.values
 
 
@@ -78,8 +78,10 @@ def read_time_data(
 ) -> TimeData:
     """Read a relaxation or creep test: time with E(t), G(t) or a compliance.
 
-    Rows at or before time zero are left out. Parameters and errors as `read_dma`: ``modulus``
-    says whether a compliance is that of tension, strain/stress = 1/E ("E"), or shear ("G").
+    Rows at or before time zero are left out. Parameters and errors are those of `read_dma`; for a
+    compliance, ``modulus`` says whether it is that of tension, strain/stress = 1/E ("E"), or of
+    shear
+    ("G").
     """
     reading = read_tables(path, temperature=temperature, sheet=sheet)
     kinds = [table.kind for table in reading.tables if table.kind in ("relaxation", "creep")]

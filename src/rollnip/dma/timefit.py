@@ -19,26 +19,27 @@ from rollnip.materials import Prony, creep_compliance, relaxation_modulus
 
 Array = NDArray[np.float64]
 
-_LEAST_PART = 1e-9  # share of the largest term below which a term is dropped
-_SMALLEST = 1e-3  # of the least value measured: a relaxed modulus or instantaneous compliance
-_FLAT = 0.9  # values a decade before the end over those at the end: relaxation has ended
+_LEAST_PART = 1e-9  # fraction of the largest term below which a term is dropped
+_SMALLEST = 1e-3  # least relaxed modulus or instantaneous compliance over the least value measured
+_FLAT = 0.9  # least over largest value of the last decade, from which the plateau is reached
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class TimeFit:
-    """A material from relaxation or creep data.
+    """A material fitted to relaxation or creep data.
 
     Attributes
     ----------
-    material : at the reference temperature, with the shift law where there are temperatures.
+    material : the material at the reference temperature, with the shift law if there are several
+        temperatures.
     master : the data at the reference temperature.
     shift : the law with its constants and their standard errors.
     rms : relative rms deviation of the material from the data.
     largest : the largest relative deviation, computed over measured less 1.
-    row : where it stands.
+    row : the row in which it occurs.
     time_range : shortest and longest time [s] at the reference temperature.
     temperature_range : lowest and highest temperature measured [degC].
-    warnings : in plain words.
+    warnings : reservations, in plain words.
     """
 
     material: Prony
@@ -53,7 +54,7 @@ class TimeFit:
 
     @property
     def frequency_range(self) -> tuple[float, float]:
-        """Lowest and highest frequency [Hz] that the times stand for, 1/(2 pi t)."""
+        """Lowest and highest frequency [Hz] that correspond to the times, 1/(2 pi t)."""
         return self.master.frequency_range
 
 
@@ -61,20 +62,20 @@ def fit_time(data: TimeData, method: DmaMethod | None = None) -> TimeFit:
     """Fit a Prony series to a relaxation modulus or a creep compliance.
 
     A relaxation modulus is E + sum E_i e^(-t/tau_i), a creep compliance J + sum J_i (1 -
-    e^(-t/lambda_i)), none of them negative; retardation is turned into relaxation exactly, by
-    E*(s) J*(s) = 1. Isotherms are shifted onto each other as those of `fit_dma`.
+    e^(-t/lambda_i)), with no negative term. Retardation is converted to relaxation exactly, by
+    E*(s) J*(s) = 1. Isotherms are shifted as in `fit_dma`.
 
     Parameters
     ----------
     data :
         from `read_time_data`.
     method :
-        as of `fit_dma`; the model must be "prony".
+        settings as for `fit_dma`; the model must be "prony".
 
     Raises
     ------
     InvalidInputError
-        where the model is another.
+        where the model is another, or the data cannot determine the shifts.
     """
     method = DmaMethod() if method is None else method
     if method.model != "prony":
@@ -106,16 +107,17 @@ def fit_time(data: TimeData, method: DmaMethod | None = None) -> TimeFit:
 
 
 def relaxation_of_creep(compliance: Array, times: Array) -> tuple[Array, Array]:
-    """Moduli (m + 1,), the relaxed one first, and relaxation times (m,) of a creeping solid.
+    """Return moduli (m + 1,), the relaxed one first, and relaxation times (m,) of a creep test.
 
-    Of J*(s) = J_0 + sum J_i/(1 + lambda_i s) with positive J: 1/J* has its poles between those of
-    J*, one above each lambda's rate, so every relaxation time lies in a bracket and the moduli,
-    from the residues, are positive.
+    For J*(s) = J_0 + sum J_i/(1 + lambda_i s) with positive J, the poles of 1/J* interlace with
+    those
+    of J*, one above each rate 1/lambda_i. So every relaxation time lies in a known bracket, and the
+    moduli, which follow from the residues, are positive.
 
     Parameters
     ----------
     compliance : (m + 1,) [1/MPa], J_0 first, all positive.
-    times : (m,) retardation times lambda [s], each once.
+    times : (m,) retardation times lambda [s], all different.
 
     References
     ----------
@@ -123,11 +125,11 @@ def relaxation_of_creep(compliance: Array, times: Array) -> tuple[Array, Array]:
     Int. J. Solids Struct. 36, 1653-1675.
     """
     order = np.argsort(-times)
-    rates, parts = 1.0 / times[order], compliance[1:][order]  # rates rise
+    rates, parts = 1.0 / times[order], compliance[1:][order]  # in ascending order of rates
     first = float(compliance[0])
 
     def value(rate: float) -> float:
-        """J* at s = -rate."""
+        """Return J* at s = -rate."""
         return first + float(np.sum(parts / (1.0 - rate / rates)))
 
     roots = []
@@ -170,7 +172,7 @@ def _material(master: Master, shift: ShiftFit, method: DmaMethod) -> Prony:
 
 
 def _deviations(material: Prony, master: Master) -> Array:
-    """Return the relative deviations (n,) of the material itself, not of the fit, from the data."""
+    """Return the relative deviations (n,) of the rounded material itself, not of the fit."""
     data = master.reduced
     plain = replace(material, temperature=None, shift=None)
     curve = creep_compliance if data.kind == "creep" else relaxation_modulus

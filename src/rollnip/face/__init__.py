@@ -1,4 +1,4 @@
-"""The face: load, width and traction of a nip along rollers that bend, are crowned or crossed."""
+"""The face: load, width and traction of a nip along rollers that bend, are crowned or skewed."""
 
 from rollnip.face.beam import Beam, FaceGrid, Journal
 from rollnip.face.design import (

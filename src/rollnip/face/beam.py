@@ -5,11 +5,12 @@ R_1, R_2 by statics, shear force Q and moment M over the face,
 
     psi' = -M/(E I),   v' = psi + Q/(kappa G A),   v = 0 at both bearings,
 
-v the deflection in the direction of the load, psi the turn of the cross-section, kappa after
-Cowper (1966). Journals carry the reactions: with s from the bearing, over the length l, their ends
-at the face lose a turn of int R s/(E I_j) ds, fall off the tangent by int R (l - s) s/(E I_j) ds
-and move by int R/(kappa G A_j) ds in shear, step by step. Everything is linear in the load, so a
-matrix holds it. Integrals over the face are those of the polynomial through the nodes.
+where v is the deflection in the direction of the load, psi the rotation of the cross-section, and
+kappa the shear coefficient of Cowper (1966). Journals carry the reactions. With s from the bearing,
+over the journal's length l, its end at the face loses a rotation of int R s/(E I_j) ds, deflects
+from the tangent by int R (l - s) s/(E I_j) ds, and moves by int R/(kappa G A_j) ds in shear; each
+integral is taken step by step. Everything is linear in the load, so that it is held in a matrix.
+Integrals over the face are those of the polynomial through the nodes.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class FaceGrid:
 
     Attributes
     ----------
-    y : (n,) from one end of the face to the other, dense at both [mm].
+    y : (n,) from one end of the face to the other, dense near both [mm].
     weights : (n,) of the integral over the face [mm].
     running : (n, n) matrix of the integral from the first end to each place [mm].
     """
@@ -46,7 +47,7 @@ class FaceGrid:
 
     @classmethod
     def of(cls, length: float, count: int) -> FaceGrid:
-        """Return ``count`` Chebyshev places on a face of some length [mm]."""
+        """Return ``count`` Chebyshev places on a face of a given length [mm]."""
         t = -np.cos(np.pi * np.arange(count) / (count - 1))
         to_coefficients = np.linalg.inv(chebyshev.chebvander(t, count - 1))
         integrated = chebyshev.chebint(to_coefficients, lbnd=-1.0, axis=0)
@@ -61,13 +62,13 @@ class FaceGrid:
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """Deflections of a journal under the unit force of its bearing.
+    """Deflections of a journal under a unit force at its bearing.
 
     Attributes
     ----------
     length : from bearing to face [mm].
-    turn : of its end at the face against the bearing [1/N].
-    fall : deflection of that end off the tangent at the bearing, by bending [mm/N].
+    turn : rotation of its end at the face relative to the bearing [1/N].
+    fall : deflection of that end from the tangent at the bearing, by bending [mm/N].
     shear : deflection by shear [mm/N].
     """
 
@@ -78,12 +79,12 @@ class Journal:
 
     @classmethod
     def of(cls, length: float, steps: Sequence[tuple[float, float, float]]) -> Journal:
-        """Return a journal of steps from the face to the bearing.
+        """Return a journal, given its steps from the face to the bearing.
 
         Parameters
         ----------
         length : of the journal [mm].
-        steps : length [mm], E I [N mm2] and kappa G A [N] of each; the last goes on to the bearing.
+        steps : length [mm], E I [N mm2] and kappa G A [N] of each; the last extends to the bearing.
         """
         turn = fall = shear = 0.0
         upper = length  # distance of the step's end next to the face from the bearing
@@ -121,8 +122,8 @@ class Beam:
         Raises
         ------
         InvalidInputError
-            where the bearings lie inside the face, the roller is a plane, the bore is not
-            smaller than the core, or the journals are longer or thicker than there is room for.
+            where the bearings lie inside the face, the roller is a plane, the bore is not smaller
+            than the core, or the journals are longer or thicker than there is room for.
         """
         if roller.radius == inf:
             raise InvalidInputError("`shaft` needs a roller with a radius, not a plane.")
@@ -142,7 +143,7 @@ class Beam:
         )
 
     def flexibility(self, grid: FaceGrid) -> Array:
-        """Return the matrix of deflections by line loads at the places of a grid, (n, n) [mm2/N].
+        """Return the matrix of deflections per line load at the places of a grid, (n, n) [mm2/N].
 
         ``flexibility @ load`` is v at the places, in the direction of the load [N/mm].
         """
@@ -153,14 +154,14 @@ class Beam:
         left = grid.weights - right
         shear = left[None, :] - grid.running
         moment = left[None, :] * from_first[:, None] - grid.running @ grid.running
-        turned = -(grid.running @ moment) / self.bending  # psi less psi at the first end
+        turned = -(grid.running @ moment) / self.bending  # psi minus psi at the first end
         down = grid.running @ turned + grid.running @ shear / self.shear
-        # The first journal, seen from its bearing: turn lost, deflection gained.
+        # First journal, from its bearing on: rotation lost, deflection gained.
         lost = left * one.turn
         gained = left * (one.shear - one.fall)
-        # The second one, seen from the face: int s^2/(E I) = length * turn - fall.
+        # Second journal, from the face on: int s^2/(E I) = length * turn - fall.
         fallen = right * (two.shear + two.length * two.turn - two.fall)
-        # v(second bearing) = 0 gives psi at the first one: psi span + what the loads add = 0.
+        # v(second bearing) = 0 gives psi at the first: psi * span + the loads' part = 0.
         at_end = gained - lost * self.length + down[-1]
         beyond = (turned[-1] - lost) * two.length - fallen
         first = -(at_end + beyond) / span
@@ -169,7 +170,7 @@ class Beam:
 
 
 def _overhangs(shaft: Shaft, length: float) -> tuple[float, float]:
-    """Return how far both bearings lie beyond the face [mm]."""
+    """Return the distances of both bearings from the ends of the face [mm]."""
     first, second = shaft.bearings
     overhangs = -0.5 * length - first, second - 0.5 * length
     if shaft.bearing_distance < length:

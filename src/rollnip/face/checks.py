@@ -18,11 +18,11 @@ from rollnip.nip import Nip
 Array = NDArray[np.float64]
 
 CHECKED = ("approach", "nip_width", "peak_pressure")
-"""Figures whose relative error between the nips of a table is looked for."""
+"""Figures whose relative interpolation error between the nips of a table is estimated."""
 REPORTED = ("torque", "loss")
-"""Errors that are reported, and ask for no finer table."""
+"""Errors that are reported but do not call for a finer table."""
 LIGHT = 0.02
-"""Lighter nips than this, over the heaviest of the table, are not asked how well they are known."""
+"""Load over the heaviest of the table, below which nips are not checked."""
 
 
 def with_errors(
@@ -33,9 +33,10 @@ def with_errors(
 ) -> NipLaw:
     """Return a law with its errors, from nips solved between those of its table.
 
-    Relative errors of approach, nip width and peak pressure; "traction" over friction * load;
-    "torque", of both axles over radius * friction * load (without friction: half the nip width
-    times the load); "loss", over the largest loss per load among the nips that were solved.
+    They are relative errors of approach, nip width and peak pressure; "traction" is relative to
+    friction * load; "torque", of both axles, to radius * friction * load (without friction: half
+    the nip width times the load); "loss" to the largest loss per load among the nips that were
+    solved.
     """
     work = Work(law.model, rows, progress, executor)
     nip = nips_of(law.nip, law.axes)[0]
@@ -52,10 +53,10 @@ def _steering(error: dict[str, float]) -> list[float]:
 
 
 def _between(law: NipLaw) -> tuple[list[Place], list[Place]]:
-    """Return places in the middle between two loads, and between two slips, in its cells.
+    """Return places midway between two loads, and places midway between two slips, in its cells.
 
-    One for each step of the lattice; the other number goes from place to place through what the
-    cells allow. Nips that carry next to nothing are left out.
+    There is one for each step of the lattice; the other coordinate varies from place to place
+    within the cells. Nips that carry almost nothing are left out.
     """
     loads, s = law.loads, law.s
     cells = law.lattice.cells & (loads[1:] > LIGHT * loads[-1])[:, None]
@@ -75,7 +76,7 @@ def _between(law: NipLaw) -> tuple[list[Place], list[Place]]:
 def _worst(
     law: NipLaw, nip: Nip, places: Sequence[Place], work: Work, at: Places | None = None
 ) -> dict[str, float]:
-    """Return the largest errors of a law at some places, by name."""
+    """Return the largest errors of a law at given places, by name."""
     work.solve([(nip, place) for place in places])
     error = dict.fromkeys((*CHECKED, "traction", *REPORTED), 0.0)
     first = np.zeros((1, len(next(iter(law.table.values())))))

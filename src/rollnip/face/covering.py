@@ -1,9 +1,9 @@
 """Coverings whose thickness or hardness varies along the face.
 
-Where one single layer on a rigid core is all that deforms, a factor on its moduli is a factor on
-load and traction, exactly. Every other change asks for cross-sections of its own: they are solved
-for a few thicknesses (or stiffnesses), and the logarithms of their figures are interpolated by
-the polynomial through these, in the logarithm of the thickness.
+Where a single layer on a rigid core is all that deforms, a factor on its moduli is exactly a factor
+on load and traction. Every other variation needs cross-sections of its own. They are solved for a
+few thicknesses (or stiffnesses), and the logarithms of their figures are interpolated by a
+polynomial in the logarithm of the thickness.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ Array = NDArray[np.float64]
 What = Literal["thickness", "stiffness"]
 Key = tuple[Side, What]
 
-_NODES = 3  # of an axis to begin with
+_NODES = 3  # initial number of nodes of an axis
 _MOST_NODES = 9
 
 
 @dataclass(frozen=True, slots=True)
 class Coverings:
-    """The coverings of a face at its places.
+    """The coverings at the places of a face.
 
     Attributes
     ----------
-    values : (n,) thickness [mm] or stiffness of the outermost layer, by roller; what varies.
+    values : (n,) thickness [mm] or stiffness of the outermost layer, by roller; only what varies.
     scale : (n,) factor on all moduli together.
     """
 
@@ -44,14 +44,14 @@ class Coverings:
 
     @property
     def ranges(self) -> dict[Key, tuple[float, float]]:
-        """Smallest and largest of each value."""
+        """Smallest and largest value of each quantity."""
         return {key: (float(v.min()), float(v.max())) for key, v in self.values.items()}
 
 
 def coverings_of(nip: Nip, y: Array, length: float, stiffness: float = 1.0) -> Coverings:
     """Return the coverings of both rollers at places of a face.
 
-    ``stiffness`` is a factor on every modulus of both.
+    ``stiffness`` is a factor on all moduli of both.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def _is_all_that_deforms(nip: Nip, roller: Roller) -> bool:
 
 
 def thinnest(roller: Roller) -> float:
-    """Return the smallest thickness of all layers of a roller over its face [mm]."""
+    """Return the smallest total thickness of a roller's layers over its face [mm]."""
     table = None if roller.shaft is None else roller.shaft.covering
     if table is None or table.thickness is None or not roller.layers:
         return roller.coating_thickness
@@ -94,11 +94,11 @@ def thinnest(roller: Roller) -> float:
 
 @dataclass(frozen=True, slots=True)
 class CoveringAxis:
-    """Thicknesses or stiffnesses that cross-sections are solved for.
+    """Thicknesses or stiffnesses for which cross-sections are solved.
 
     Attributes
     ----------
-    key : of which roller, and what.
+    key : the roller, and the quantity.
     nodes : increasing values.
     """
 
@@ -107,7 +107,7 @@ class CoveringAxis:
 
     @classmethod
     def between(cls, key: Key, low: float, high: float, count: int = _NODES) -> CoveringAxis:
-        """Return Chebyshev's extreme points of the logarithm; one node where nothing varies."""
+        """Return Chebyshev extreme points in the logarithm; a single node where nothing varies."""
         if high <= low * (1.0 + 1e-9):
             return cls(key, (low,))
         share = 0.5 * (1.0 - np.cos(np.pi * np.arange(count) / (count - 1)))
@@ -121,23 +121,23 @@ class CoveringAxis:
 
     @property
     def can_be_finer(self) -> bool:
-        """Return whether more nodes are allowed."""
+        """Whether more nodes are allowed."""
         return 1 < len(self.nodes) < _MOST_NODES
 
     @property
     def finer(self) -> CoveringAxis:
-        """The axis with a node between each two."""
+        """The axis with nodes between these (on the nodes of twice as many intervals)."""
         return CoveringAxis.between(
             self.key, self.nodes[0], self.nodes[-1], 2 * len(self.nodes) - 1
         )
 
     @property
     def between_nodes(self) -> float:
-        """A value as far from all nodes as can be."""
+        """A value as far from all nodes as possible."""
         return self.finer.nodes[1]
 
     def weights(self, values: Array) -> Array:
-        """Return the share of each node in the interpolated figure, (n, nodes)."""
+        """Return the weight of each node in the interpolated figure, (n, nodes)."""
         x, at = np.log(np.array(self.nodes)), np.log(values)
         out = np.ones((values.size, x.size))
         for i, own in enumerate(x):
@@ -148,7 +148,7 @@ class CoveringAxis:
 
 
 def axes_of(coverings: Coverings) -> tuple[CoveringAxis, ...]:
-    """Return the axes that cover all values, with as many nodes as a table begins with."""
+    """Return the axes that cover all values, with the initial number of nodes."""
     return tuple(
         CoveringAxis.between(key, low, high) for key, (low, high) in coverings.ranges.items()
     )
@@ -172,7 +172,7 @@ def nips_of(nip: Nip, axes: tuple[CoveringAxis, ...]) -> list[Nip]:
 
 
 def weights_of(axes: tuple[CoveringAxis, ...], coverings: Coverings) -> Array:
-    """Return the share of each of the `nips_of` at the places of a face, (n, nips)."""
+    """Return the weight of each of the `nips_of` at the places of a face, (n, nips)."""
     out = np.ones((coverings.scale.size, 1))
     for axis in axes:
         own = axis.weights(coverings.values[axis.key])

@@ -1,4 +1,4 @@
-"""Design of a face that is meant to be even: its crown, its load, its skew."""
+"""Design of a face for an even load: its crown, its range of loads, the wall of its core."""
 
 from __future__ import annotations
 
@@ -26,25 +26,25 @@ Array = NDArray[np.float64]
 AnyLaw = NipLaw | SheetLaw
 
 _PLACES = 65
-_RANGE = 4.0  # ratio of the largest load examined to the crown's own, and of that to the smallest
+_RANGE = 4.0  # ratio of the largest load examined to the given one, and of that to the smallest
 _LOADS = 17
-_BALANCED = 1e-9  # moment over load times length, below which both sides carry the same
-_THINNEST = 0.005  # wall over core diameter; thinner ones are no roller
+_BALANCED = 1e-9  # moment over load times length, below which both sides carry the same load
+_THINNEST = 0.005  # smallest wall over the core's diameter
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class EvenCrown(Sealed):
-    """The crown that evens out a load.
+    """The crown that makes a load even.
 
     Attributes
     ----------
-    roller : "upper" or "lower", the one that is crowned.
-    y, diameter : (n,) places [mm] and the crown on the diameter that makes the load the same
+    roller : "upper" or "lower", the roller that is crowned.
+    y, diameter : (n,) places [mm], and the crown on the diameter that makes the load the same
         everywhere, 0 at the ends [mm].
-    height : of the parabolic crown that comes nearest [mm on the diameter].
+    height : height of the best parabolic crown [mm on the diameter].
     solution : the face with that parabola.
-    skew : angle between the axes [rad] that a straight roller would need instead; 0 where the
-        crown is hollow, which no skew replaces.
+    skew : angle between the axes [rad] that would replace the crown with a straight roller; 0 where
+        the crown is hollow, which no skew replaces.
     skewed : the face with that skew and a straight roller; None where there is none.
     """
 
@@ -58,7 +58,7 @@ class EvenCrown(Sealed):
 
     @property
     def table(self) -> CrownTable:
-        """The exact crown, to be ground or solved."""
+        """The exact crown, for grinding or solving."""
         return CrownTable(self.y, self.diameter)
 
 
@@ -71,22 +71,24 @@ def even_crown(
     cache: KernelCache | None = None,
     rows: NipRows | None = None,
 ) -> EvenCrown:
-    """Return the crown of one roller that makes the line load even; the other keeps its own.
+    """Return the crown of one roller that makes the line load even; the other roller keeps its own.
 
-    Under an even load both rollers bend by what statics say, whatever the covering: the crown is
-    that deflection, with what the skew opens and the other roller's crown closes.
+    Under an even load both rollers bend as statics determines, whatever the covering. The crown is
+    the sum of these deflections and of the gap that the skew opens, less the crown of the other
+    roller.
 
     Parameters
     ----------
-    nip, face, model : the problem; ``nip.normal`` must be a LineLoad, or ``face`` hold end loads.
-    roller : which one is ground.
-    cache, rows : influence functions and plane nips of earlier faces, as `solve_face` takes them.
+    nip, face, model : the problem; ``nip.normal`` must be a LineLoad, or ``face`` must hold end
+        loads.
+    roller : the roller to be ground.
+    cache, rows : influence functions and plane nips of earlier faces, as for `solve_face`.
 
     Raises
     ------
     InvalidInputError
-        where the roller has no shaft, the mean load is not given, or one side of the face is to
-        carry more than the other.
+        where the roller has no shaft, the mean load is not given, or one side of the face is meant
+        to carry more than the other.
     """
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
@@ -121,7 +123,7 @@ def even_crown(
 
 
 def _even_load(problem: FaceProblem) -> float:
-    """Return the mean line load [N/mm]; raise where it is not given, or cannot be even."""
+    """Return the mean line load [N/mm]; raise where it is not given or cannot be even."""
     total, moment = problem.total, problem.moment
     if total is None:
         raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
@@ -134,14 +136,14 @@ def _even_load(problem: FaceProblem) -> float:
 
 
 def _rise(values: Array) -> float:
-    """Return the value in the middle less the mean of those at both ends."""
+    """Return the value in the middle minus the mean of both ends."""
     return float(values[values.size // 2] - 0.5 * (values[0] + values[-1]))
 
 
 def _local_approach(nip: Nip, problem: FaceProblem, law: AnyLaw, load: float) -> Array:
     """Return the approach that the covering at each place needs for the load, (n,) [mm].
 
-    With a sheet the covering is the same everywhere, and so is what it needs: 0 is returned.
+    With a sheet the covering is the same everywhere, and so is the approach; 0 is returned.
     """
     if isinstance(law, SheetLaw):
         return np.zeros(problem.grid.y.size)
@@ -160,7 +162,7 @@ def _skewed(
     if height <= 0.0:
         return 0.0, None
     skew = skew_of_crown(height, face.length, (straight.upper.radius, straight.lower.radius))
-    both = sqrt(face.skew**2 + skew**2)  # gaps of skews add up by their squares
+    both = sqrt(face.skew**2 + skew**2)  # the gap is proportional to the square of the skew
     if both > LARGEST_SKEW:
         return skew, None
     return skew, solve_face(straight, replace(face, skew=both), model, law=law)
@@ -176,13 +178,13 @@ def with_crown(nip: Nip, roller: Side, crown: Crown | CrownTable) -> Nip:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LoadRange(Sealed):
-    """The mean line loads that a crown serves.
+    """The mean line loads for which a crown is suitable.
 
     Attributes
     ----------
-    within : largest departure of the local load from the mean, over the mean, that is allowed.
-    low, high : ends of the range [N/mm]; None where it goes on beyond the loads looked at.
-    loads, unevenness : (n,) the loads looked at and their largest departures.
+    within : largest allowed departure of the local load from the mean, over the mean.
+    low, high : ends of the range [N/mm]; None where it extends beyond the loads examined.
+    loads, unevenness : (n,) the loads examined and their largest departures.
     """
 
     within: float
@@ -200,24 +202,24 @@ def load_range(
     within: float = 0.1,
     law: AnyLaw | None = None,
 ) -> LoadRange | None:
-    """Return the mean line loads for which the load over the face stays near its mean.
+    """Return the mean line loads for which the load over the face stays close to its mean.
 
     Parameters
     ----------
-    nip, face, model : the problem with its crown; its own load is where the search begins.
+    nip, face, model : the problem with its crown; the search starts from its load.
     within : largest departure from the mean, over the mean.
     law : table of an earlier solution.
 
     Returns
     -------
-    None where no load between a quarter and four times the given one is as even as that.
+    None where no load between a quarter of the given one and four times it is as even as that.
 
     Raises
     ------
     InvalidInputError
         where the nip has no load, or ``within`` is out of range; and as `solve_face` does.
     ConvergenceError
-        as `solve_face`.
+        as `solve_face` does.
     """
     if not isinstance(nip.normal, LineLoad):
         raise InvalidInputError("`load` must be given to look for a range about it.")
@@ -231,7 +233,7 @@ def load_range(
             found = solve_face(replace(nip, normal=LineLoad(load)), even, model, law=kept)
         except (
             ConvergenceError
-        ):  # more load, or more of it at one place, than the nip can be solved for
+        ):  # the load, or its concentration at one place, is too large to be solved
             return inf
         kept = found.law
         return found.largest_departure
@@ -246,7 +248,7 @@ def load_range(
     from scipy.optimize import brentq
 
     def end(a: int, b: int) -> float:
-        # inf has no root: a large number does.
+        # brentq needs finite values.
         return float(
             brentq(lambda load: min(uneven(load), 10.0) - within, loads[a], loads[b], rtol=1e-4)
         )
@@ -258,14 +260,15 @@ def load_range(
 
 @dataclass(frozen=True, slots=True)
 class PlainWall:
-    """The core that would do without a crown.
+    """The core with which a roller needs no crown.
 
     Attributes
     ----------
     roller : "upper" or "lower".
-    within : largest departure of the local load from the mean, over the mean, that is allowed.
-    bore : largest bore that keeps within it, straight [mm]; None where not even a solid core does.
-    wall : the core's wall with that bore [mm]; None where the bore is.
+    within : largest allowed departure of the local load from the mean, over the mean.
+    bore : largest bore with which the straight roller stays within it [mm]; None where not even a
+        solid core does.
+    wall : wall of the core with that bore [mm]; None where the bore is None.
     solid : largest departure with a solid core.
     """
 
@@ -293,13 +296,13 @@ def plain_wall(
     ----------
     nip, face, model : the problem.
     within : largest departure of the local load from the mean, over the mean.
-    roller : whose core; its crown is taken off.
+    roller : the roller whose core it is; its crown is removed.
     law : table of an earlier solution.
 
     Raises
     ------
     InvalidInputError
-        where the roller has no shaft, or ``within`` is no share.
+        where the roller has no shaft, or ``within`` is not between 0 and 1.
     """
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
@@ -315,7 +318,7 @@ def plain_wall(
         straight = replace(nip, upper=bored) if roller == "upper" else replace(nip, lower=bored)
         try:
             found = solve_face(straight, face, model, law=kept)
-        except ConvergenceError:  # it bends so far that no table ends
+        except ConvergenceError:  # the roller bends so far that no table covers the face
             return inf
         kept = found.law
         return found.largest_departure

@@ -1,6 +1,6 @@
 """The registry of the figures of a face: scalars, and lists over y.
 
-JSON, netCDF, tables of sweeps and the documentation read it. A figure of a face is added here and
+JSON, netCDF, tables of sweeps and the documentation all read it. To add a figure, add it here and
 as an attribute of `FaceSolution`.
 """
 
@@ -107,7 +107,7 @@ BEARING_FORCES: Mapping[str, Figure] = {
     )
     for side in ("upper", "lower")
 }
-"""The forces on the bearings of each roller, by roller."""
+"""The figures of the forces on the bearings, by roller."""
 
 IMPRESSION_FIGURES: Mapping[str, Figure] = by_key(
     _F("load", "load", "line load", "Mean line load."),
@@ -115,12 +115,12 @@ IMPRESSION_FIGURES: Mapping[str, Figure] = by_key(
     _F("crown", "crown on the diameter", "length", "Middle less ends, on the diameter."),
     _F("modulus", "modulus over the assumed one", "ratio", "By what all moduli are multiplied."),
 )
-"""What an impression tells, by the name of the unknown."""
+"""What an impression determines, by the name of the unknown."""
 
 ADDED_CROWN = _F(
     "needed_crown", "crown to be added", "length", "Crown on the diameter to add for an even load."
 )
-"""What a measured face lacks, by the impression and by the shop formula."""
+"""The crown that a measured face lacks, from the impression and by the shop formula."""
 
 FACE_PROFILES: Mapping[str, Figure] = by_key(
     _F("y", "y", "length", "Place along the face, from its middle."),
@@ -206,7 +206,7 @@ SHEET_FACE_FIGURES: Mapping[str, Figure] = by_key(
         digits=3,
     ),
 )
-"""The scalar figures that a sheet adds, by key."""
+"""The scalar figures of a face with a sheet, besides the others, by key."""
 
 SHEET_FACE_PROFILES: Mapping[str, Figure] = by_key(
     _F(
@@ -229,16 +229,16 @@ SHEET_FACE_PROFILES: Mapping[str, Figure] = by_key(
     ),
     _F("tension_in", "tension at the inlet", "line load", "Tension of the sheet at the inlet."),
 )
-"""The lists over y that a sheet adds, by key."""
+"""The lists over y of a face with a sheet, besides the others, by key."""
 
 
 def figures_of(solution: Any) -> Mapping[str, Figure]:
-    """Return the scalar figures that a face has."""
+    """Return the scalar figures of a face."""
     return FACE_FIGURES if solution.nip.sheet is None else {**FACE_FIGURES, **SHEET_FACE_FIGURES}
 
 
 def profiles_of(solution: Any) -> Mapping[str, Figure]:
-    """Return the lists over y that a face has."""
+    """Return the lists over y of a face."""
     if solution.nip.sheet is None:
         return FACE_PROFILES
     return {**FACE_PROFILES, **SHEET_FACE_PROFILES}

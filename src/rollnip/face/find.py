@@ -1,4 +1,4 @@
-"""The verified solution of a face, on a table that grows until it covers the face."""
+"""The verified solution of a face, with a table that is extended until it covers the face."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ from rollnip.solver import solve
 Array = NDArray[np.float64]
 
 _PLACES = 65  # along the face
-_FIRST_SLIP = 0.14  # to either side of that of the mean traction
-_FINEST = 3  # halvings of the lattice
+_FIRST_SLIP = 0.14  # initial range of slip to either side of that of the mean traction
+_FINEST = 3  # most halvings of the lattice
 _MOST_TABLES = 20
-_MOST_ENDS, _ENDS_SETTLED = 12, 1e-4  # iterations, and what an approach may still change by
-_SMALLEST_LOAD = 1e-3  # of the largest: below, the law is a power of the approach
-_HEAVY = 0.02  # of the largest load: lighter cross-sections need no slip of their own
+_MOST_ENDS, _ENDS_SETTLED = 12, 1e-4  # iterations, and allowed last change of an approach, relative
+_SMALLEST_LOAD = 1e-3  # over the largest; below it, the law is a power of the approach
+_HEAVY = 0.02  # over the largest load; lighter cross-sections need no slip of their own
 _CLAIM = 5.0
 """Largest error of a converged face over the tolerance of its cross-sections."""
 _WANTED = 4.0
-"""Interpolation that leaves more than this over the tolerance asks for a finer table."""
+"""Interpolation error over the tolerance, above which a finer table is made."""
 
 
 def solve_face(
@@ -70,30 +70,30 @@ def solve_face(
     Parameters
     ----------
     nip :
-        the cross-section; its rollers may have shafts. Its load is the mean line load, its
-        traction and torque are means too, unless ``face`` holds end loads.
+        the cross-section; its rollers may have shafts. Its load is the mean line load, and its
+        traction or torque is a mean as well, unless ``face`` holds end loads.
     face :
         length, skew, end loads.
     stiffness :
-        factor on every modulus of both rollers' layers.
+        factor on all moduli of both rollers' layers.
     model :
         geometry and accuracy of the cross-sections; ``Model()`` by default.
     law :
-        the table of an earlier solution (``solution.law``) of the same cross-section: then nothing
-        is solved but the balance, where the table covers it.
+        the table of an earlier solution (``solution.law``) of the same cross-section; where it
+        covers the face, only the balance is solved.
     rows :
-        plane nips of earlier faces, and where those of this one are kept.
+        plane nips of earlier faces, to which those of this face are added.
     cache :
-        influence functions to begin with, where no ``rows`` are given.
+        initial influence functions, where no ``rows`` are given.
     progress :
-        called after each cross-section with how many are solved, and of how many.
+        called after each cross-section with the number solved and the total number.
     executor :
         solves cross-sections in other processes, such as a ProcessPoolExecutor.
 
     Returns
     -------
-    FaceSolution; its errors come from cross-sections solved between those of the table, and from
-    half as many places along the face.
+    FaceSolution; its errors come from cross-sections solved between those of the table, and from a
+    balance on half as many places along the face.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def solve_face(
 
 
 def _with_ends(maker: _Maker, law: NipLaw, found: Balance) -> tuple[FaceProblem, NipLaw, Balance]:
-    """Return a face whose ends give way or carry more, beginning with one whose nip is plane."""
+    """Return a face whose ends carry less or more than plane nips, starting from plane nips."""
     problem = maker.problem
     for _ in range(_MOST_ENDS):
         at_ends = float(found.approach[0]), float(found.approach[-1])
@@ -163,7 +163,7 @@ def _with_sheet(
     progress: Progress | None,
     executor: Executor | None,
 ) -> SheetFaceSolution:
-    """Solve a face with a sheet, from the same face without sheet and friction."""
+    """Solve a face with a sheet, starting from the same face without sheet and friction."""
     if isinstance(law, NipLaw):
         raise InvalidInputError("`law` must be that of the same cross-section, sheet and model.")
     require_even_covering(problem)
@@ -208,7 +208,7 @@ def _require_plain(nip: Nip, face: Face) -> None:
 
 
 def _require_same(law: NipLaw, problem: FaceProblem, model: Model) -> None:
-    """Raise unless a law is of the same cross-sections, whatever their loads, shafts and heat."""
+    """Raise unless a law has the same cross-sections, whatever their loads, shafts and heat."""
     one, other = law.nip, problem.nip
     is_same = all(
         in_section(getattr(one, side)) == in_section(getattr(other, side)) for side in SIDES
@@ -273,7 +273,7 @@ class _Maker:
         )
 
     def _first_span(self) -> Span:
-        """Return loads about the mean one, and measures of slip about that of the mean traction."""
+        """Return loads around the mean one, and slips around that of the mean traction."""
         nip, scale = self.problem.nip, self.problem.coverings.scale
         total = self.problem.total
         if total is None:
@@ -302,21 +302,21 @@ class _Maker:
 
 
 def _path(found: Balance, share: float = _SMALLEST_LOAD) -> tuple[Array, Array]:
-    """Return ln F and s of the places that carry more than a share of the heaviest."""
+    """Return ln F and s at the places that carry more than a share of the largest load."""
     section = found.section
     carries = section.load > share * float(section.load.max())
     return section.log_load[carries], section.s[carries]
 
 
 def _on_path(lattice: Lattice, found: Balance) -> Lattice:
-    """Return a lattice of which only the cells are asked for that a face goes through."""
+    """Return a lattice whose requested cells are only those through which a face passes."""
     return replace(lattice, cells=cells_of(lattice.loads, lattice.s, *_path(found)))
 
 
 def _misses(law: NipLaw, found: Balance) -> bool:
-    """Return whether heavy places of a face lie in cells that a law was not solved for.
+    """Return whether heavily loaded places of a face lie in cells for which a law was not solved.
 
-    What lies outside its loads and slips asks for a wider table instead, if there can be one.
+    Places outside its loads and slips call for a wider table instead, if there can be one.
     """
     log_load, s = _path(found, _HEAVY)
     ends = np.log(law.loads[[0, -1]])
@@ -358,14 +358,14 @@ def _wider(law: NipLaw, found: Balance, span: Span) -> Span | None:
     if fault:
         raise ConvergenceError(fault)
     if high > 1.001 * law.loads[-1]:
-        # A step by e would end far beyond, at loads that the covering may not carry.
+        # A step by a factor e could end at loads far beyond what the covering can carry.
         halved = max(span.halved[0], 1), span.halved[1]
         grown = replace(grown, high=min(1.1 * high, 4.0 * float(law.loads[-1])), halved=halved)
     if least < 0.999 * law.loads[0]:
         smallest = 0.2 * float(law.loads[0])
         grown = replace(grown, low=max(0.7 * least, smallest, 0.5 * _SMALLEST_LOAD * high))
     if law.s.size > 1 and span.slips is not None:
-        # Only cross-sections that carry something need their slip.
+        # Only cross-sections that carry a considerable load need their slip.
         heavy = s[loads > _HEAVY * high]
         below, above = float(heavy.min(initial=inf)), float(heavy.max(initial=-inf))
         first, last = float(law.s[0]), float(law.s[-1])
@@ -384,8 +384,8 @@ def _wider(law: NipLaw, found: Balance, span: Span) -> Span | None:
 def _error_of_places(problem: FaceProblem, law: NipLaw, found: Balance) -> float:
     """Return the change of the load with half as many places, over the largest load.
 
-    Where ends carry more or less, a place holds the mean over its share of the length: the plane
-    nips of the places are compared.
+    Where the ends carry more or less than plane nips, a place holds the mean over its share of the
+    length. The plane nips at the places are therefore compared.
     """
     coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1, problem.stiffness)
     coarse = replace(coarse, relief=problem.relief)

@@ -1,7 +1,8 @@
 """Reading a nip impression: from widths at several places to loads, crown, tilt and modulus.
 
-A nip impression is what carbon paper or foil keeps of a standing nip: its width at places along the
-face. Widths are fitted by least squares; what the data do not determine shows in wide intervals.
+A nip impression is the record of a standing nip on carbon paper or foil: its width at places along
+the face. Widths are fitted by least squares; what the data do not determine shows in wide
+intervals.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ from rollnip.shafts import Crown, Face
 Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]
 
-_NO_CROWN = 1e-3  # mm on the diameter, which no grinder holds
-_UNTOLD = 0.5  # relative half-width of an interval beyond which the data do not determine a value
+_NO_CROWN = 1e-3  # mm on the diameter, less than a grinder's tolerance
+_UNTOLD = 0.5  # relative half-width of an interval, above which the data do not determine a value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +44,7 @@ class Impression:
     y : (n,) places from the middle of the face [mm].
     width : (n,) nip widths there [mm], positive.
     scatter : standard deviation of a width [mm].
-    load : mean line load under which it was made [N/mm]; None: that of the nip.
+    load : mean line load under which the impression was made [N/mm]; None: that of the nip.
     """
 
     y: Sequence[float] | Array
@@ -78,7 +79,7 @@ class ImpressionEstimate:
 
     Attributes
     ----------
-    name, unit : what it is.
+    name, unit : name and unit of the unknown.
     value, low, high : estimate and its 95 % interval.
     """
 
@@ -95,16 +96,16 @@ class ImpressionReading:
 
     Attributes
     ----------
-    estimates : of each unknown.
+    estimates : one for each unknown.
     solutions : the fitted faces, one for each impression.
-    chi_squared, freedom : sum of squared residuals over their scatter, degrees of freedom.
+    chi_squared, freedom : sum of squared residuals over their scatter, and degrees of freedom.
     warnings : what the widths do not determine, or contradict.
-    shop_crown : what the shop formula (N_e^2 - N_c^2)(D_u + D_l)/(2 D_u D_l) asks to be added to
-        the crown on the diameter [mm]; N_e, N_c outermost and middlemost widths of the first
-        impression.
-    needed_crown : what the fitted face needs to be added to it instead, for an even load [mm].
-    bearing_offset : how much further the upper bearing at y > 0 has come than the other, in the
-        first fitted face [mm]; None without a shaft of the upper roller.
+    shop_crown : what has to be added to the crown on the diameter by the shop formula (N_e^2 -
+        N_c^2)(D_u + D_l)/(2 D_u D_l) [mm]; N_e, N_c are the outermost and middlemost widths of the
+        first impression.
+    needed_crown : what has to be added to it by the fitted face instead, for an even load [mm].
+    bearing_offset : travel of the upper bearing at y > 0 minus that of the other, in the first
+        fitted face [mm]; None without a shaft of the upper roller.
     """
 
     estimates: tuple[ImpressionEstimate, ...]
@@ -118,7 +119,7 @@ class ImpressionReading:
 
     @property
     def shop_error(self) -> float | None:
-        """Relative error of the shop formula; None where no crown is missing."""
+        """Relative error of the shop formula; None where no crown needs to be added."""
         if abs(self.needed_crown) < _NO_CROWN:
             return None
         return self.shop_crown / self.needed_crown - 1.0
@@ -142,14 +143,14 @@ def read_impressions(
 
     Parameters
     ----------
-    nip, face, model : the face as it is thought to be; shafts give the bending.
-    impressions : one for each load; their load is taken as known unless "load" is unknown.
+    nip, face, model : the face as assumed; its shafts determine the bending.
+    impressions : one for each load; their loads are taken as known unless "load" is unknown.
     unknowns :
         "load", the mean line load, of a single impression;
-        "tilt", second less first end load [N], the same in all; "crown", of ``roller``, parabolic;
+        "tilt", second end load minus first [N], the same in all; "crown", of ``roller``, parabolic;
         "modulus", a factor on all moduli.
-    roller : whose crown is unknown.
-    rows : plane nips of earlier faces, and where those of these are kept.
+    roller : the roller whose crown is unknown.
+    rows : plane nips of earlier faces, to which those of these faces are added.
 
     Raises
     ------
@@ -229,7 +230,7 @@ def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:
 def _wide_law(
     nip: Nip, face: Face, loads: list[float], model: Model | None, rows: NipRows | None
 ) -> NipLaw:
-    """Return a table that covers all impressions as they are expected."""
+    """Return a table that covers all impressions at their assumed loads."""
     law: AnyLaw | None = None
     for load in sorted(loads):
         law = solve_face(replace(nip, normal=LineLoad(load)), face, model, law=law, rows=rows).law
@@ -311,7 +312,7 @@ def _reading(
 
 
 def _needed(solution: FaceSolution) -> float:
-    """Return what is missing to the crown that makes the mean load even [mm on the diameter]."""
+    """Return what is missing from the crown that makes the mean load even [mm on the diameter]."""
     problem = solution.problem
     bends = (problem.upper + problem.lower) @ np.full(problem.grid.y.size, solution.mean_load)
     left = bends - problem.still

@@ -1,4 +1,4 @@
-"""The lattice of a face's table: loads and slips, and the cells between them that are covered."""
+"""The lattice of a face's table: loads and slips, and the cells between them in use."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Lattice:
     ----------
     loads : (m,) increasing [N/mm], evenly spaced in their logarithm.
     s : (k,) increasing measures of partial slip; (1,) holding 0 without friction.
-    cells : (m - 1, k - 1) between which loads and slips the table is asked for; (m - 1, 1) without
-        friction.
+    cells : (m - 1, k - 1) which cells between loads and slips the table has to cover; (m - 1, 1)
+        without friction.
     """
 
     loads: Array
@@ -29,10 +29,10 @@ class Lattice:
 
     @property
     def asked(self) -> Mask:
-        """Which nips are solved, (m, k): corners of the cells, and the next ones on every side.
+        """Which nips are solved, (m, k): corners of the cells, and their neighbours on every side.
 
         A spline over a cell depends on few other nips; beyond these the table is continued by
-        lines.
+        straight lines.
         """
         if self.s.size == 1:
             return np.ones((self.loads.size, 1), dtype=bool)
@@ -46,9 +46,10 @@ class Lattice:
         return out
 
     def with_cells(self, other: Lattice) -> Lattice:
-        """Return the lattice with the cells whose middle lies in a cell of another one, too.
+        """Return the lattice with the added cells whose middle lies in a cell of another lattice.
 
-        Without them, where a gap in loads or slips would be left between both.
+        It returns the lattice unchanged where this would leave a gap in loads or slips between
+        both.
         """
         places = []
         for own, theirs, more in (
@@ -68,7 +69,7 @@ class Lattice:
         return self if has_gap else replace(self, cells=both)
 
     def part(self, loads: slice, slips: slice) -> Lattice:
-        """Return a part of the lattice, its slices with a start and a stop."""
+        """Return a part of the lattice; both slices have a start and a stop."""
         cells = self.cells[loads.start : loads.stop - 1]
         if self.s.size > 1:
             cells = cells[:, slips.start : slips.stop - 1]
@@ -76,9 +77,9 @@ class Lattice:
 
 
 def cells_of(loads: Array, s: Array, log_load: Array, slip: Array) -> Mask:
-    """Return the cells of a lattice that a path of ln F and s goes through, each (n,).
+    """Return the cells of a lattice through which a path of ln F and s passes, each (n,).
 
-    Parts of it outside count for the cells next to them.
+    Parts of the path outside the lattice count for the nearest cells.
     """
     at = np.arange(log_load.size)
     more = np.linspace(0.0, log_load.size - 1.0, 8 * (log_load.size - 1) + 1)
@@ -86,7 +87,7 @@ def cells_of(loads: Array, s: Array, log_load: Array, slip: Array) -> Mask:
 
 
 def cells_at(loads: Array, s: Array, log_load: Array, slip: Array) -> Mask:
-    """Return the cells of a lattice that places at ln F and s lie in, each (n,)."""
+    """Return the cells of a lattice in which places at ln F and s lie, each (n,)."""
     i = _cell(np.log(loads), log_load)
     j = _cell(s, slip) if s.size > 1 else np.zeros_like(i)
     out = np.zeros((loads.size - 1, max(s.size - 1, 1)), dtype=bool)

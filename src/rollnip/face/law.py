@@ -1,13 +1,13 @@
-"""The nip as a law: load and traction of a cross-section by its approach and creepage.
+"""The nip as a law: load and traction of a cross-section as functions of approach and creepage.
 
-A face asks for thousands of cross-sections that differ in approach and creepage alone. So plane
-nips are solved at a few line loads F and tractions T, and everything is interpolated by cubic
+A face needs thousands of cross-sections that differ in approach and creepage only. Plane nips are
+therefore solved at a few line loads F and tractions T, and everything is interpolated by cubic
 splines in ln F and in s, which measures the traction by Carter's law of partial slip,
 
     T/(mu F) = sign(s) (1 - (1 - |s|)^2),   -1 <= s <= 1.
 
-For equal half-spaces the creepage is then linear in s; for layers it is smooth in it. Beyond
-|s| = 1 all slides, and T = +-mu F. How coverings that vary along the face enter says `covering`.
+For equal half-spaces the creepage is then linear in s; for layers it is smooth in s. Beyond |s| = 1
+the whole nip slides, and T = +-mu F. For coverings that vary along the face see `covering`.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 FORCES = ("peak_pressure", "torque_upper", "torque_lower", "friction_loss", "viscous_loss")
-"""Figures of a law that grow with the moduli."""
+"""Figures of a law that are proportional to the moduli."""
 NAMES = ("approach", "creepage", "nip_width", "slip_width", *FORCES)
-"""Figures of a law: torques and losses per length; they are nan where a nip has none."""
+"""Figures of a law. Torques and losses are per length, and nan where a nip has none."""
 _POSITIVE = ("approach", "nip_width", "peak_pressure")
 _PER_LOAD = ("torque_upper", "torque_lower", "viscous_loss")
-_KINKED = ("friction_loss", "slip_width")  # where the nip rolls freely: linear in s between nips
-_STEPS = 40  # of Newton's method for load and traction
+_KINKED = ("friction_loss", "slip_width")  # kinked at free rolling: linear in s between nips
+_STEPS = 40  # most steps of Newton's method for load and traction
 _SETTLED = 1e-12
 
 
@@ -57,11 +57,11 @@ def slip_measure(share: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """The coverings at the places of a face, as a law takes them.
+    """The coverings at the places of a face, in the form that a law uses.
 
     Attributes
     ----------
-    weights : (n, states) share of each state of the coverings that the law was solved for.
+    weights : (n, states) weight of each state of the coverings for which the law was solved.
     scale : (n,) factor on all moduli.
     """
 
@@ -70,22 +70,22 @@ class Places:
 
     @property
     def mean(self) -> Places:
-        """One place in the middle of all."""
+        """The mean of all places, as one place."""
         return Places(self.weights.mean(axis=0)[None, :], np.array([np.mean(self.scale)]))
 
 
 @dataclass(frozen=True, slots=True)
 class CrossSections:
-    """Cross-sections of the nip at some approaches and creepages, each (n,).
+    """Cross-sections of the nip at given approaches and creepages, each (n,).
 
     Attributes
     ----------
     load, traction : [N/mm].
-    load_slope, traction_slope : by the approach [N/mm2].
-    load_by_creepage, traction_by_creepage : [N/mm].
-    log_load, s : where in the table they lie.
-    rates : derivatives of these two by approach and creepage: (ln F by approach, s by approach,
-        ln F by creepage, s by creepage).
+    load_slope, traction_slope : derivatives with respect to the approach [N/mm2].
+    load_by_creepage, traction_by_creepage : derivatives with respect to the creepage [N/mm].
+    log_load, s : their coordinates in the table.
+    rates : derivatives of these coordinates with respect to approach and creepage: (ln F by
+        approach, s by approach, ln F by creepage, s by creepage).
     """
 
     load: Array
@@ -105,19 +105,19 @@ class NipLaw:
 
     Attributes
     ----------
-    nip, model : of the cross-section; its own load and traction do not matter.
+    nip, model : of the cross-section; the nip's own load and traction are not used.
     loads : (m,) increasing line loads [N/mm], evenly spaced in their logarithm.
     s : (k,) increasing measures of partial slip; (1,) holding 0 without friction.
     table : name of a figure -> (states, m, k), for the names in `NAMES`.
-    error : relative error of approach, nip width, peak pressure and ("traction") of the traction
-        over friction times load, between the nips of the table, by nips solved there.
-    axes : the coverings solved for; none: the nip's own.
+    error : relative errors of approach, nip width and peak pressure, and ("traction") of the
+        traction over friction times load, between the nips of the table; from nips solved there.
+    axes : the coverings for which it was solved; empty: the nip's own.
     parts : the largest error between loads, and that between slips.
     faults : why the loads end where they do, below and above; empty where more could be solved.
-    unsolved : (m, k) which nips have no verified solution: the table goes on there as a line.
-    cells : (m - 1, k - 1) between which loads and slips it holds; (m - 1, 1) without friction.
-        None: all.
-    fault : why the first of them has none; empty where all were solved.
+    unsolved : (m, k) which nips have no verified solution; the table is continued there by lines.
+    cells : (m - 1, k - 1) which cells between loads and slips are valid; (m - 1, 1) without
+        friction. None: all.
+    fault : why the first unsolved nip has no solution; empty where all were solved.
     solves : number of nips that were solved for the law.
     rows : keeps these nips, for a wider table.
     """
@@ -139,17 +139,17 @@ class NipLaw:
 
     @property
     def lattice(self) -> Lattice:
-        """Loads and slips of the table, and the cells between which it holds."""
+        """Loads and slips of the table, and its valid cells."""
         shape = self.loads.size - 1, max(self.s.size - 1, 1)
         cells = np.ones(shape, dtype=bool) if self.cells is None else self.cells
         return Lattice(self.loads, self.s, cells)
 
     def places(self, coverings: Coverings) -> Places:
-        """Return the coverings of a face as this law takes them."""
+        """Return the coverings of a face in the form that this law uses."""
         return Places(weights_of(self.axes, coverings), coverings.scale)
 
     def figure(self, name: str, log_load: Array, s: Array, places: Places) -> Array:
-        """Return a figure of `NAMES` at places of the table, (n,)."""
+        """Return a figure of `NAMES` at coordinates of the table, (n,)."""
         value = self._surface(name, log_load, s, places)[0]
         if name in _POSITIVE:
             value = np.exp(value)
@@ -171,7 +171,7 @@ class NipLaw:
         return np.asarray(np.any(corners, axis=0))
 
     def slopes(self, name: str, section: CrossSections, places: Places) -> tuple[Array, Array]:
-        """Return the derivatives of a figure by the approach and by the creepage, each (n,)."""
+        """Return the derivatives of a figure with respect to approach and creepage, each (n,)."""
         value, by_load, by_s = self._surface(name, section.log_load, section.s, places)
         if name in _PER_LOAD:
             load = np.exp(section.log_load)
@@ -181,7 +181,7 @@ class NipLaw:
         return scale * (by_load * load_d + by_s * s_d), scale * (by_load * load_x + by_s * s_x)
 
     def creepage_slope(self, log_load: Array, s: Array, places: Places) -> Array:
-        """Return the derivative of the creepage by s at places of the table, (n,)."""
+        """Return the derivative of the creepage with respect to s, (n,)."""
         return self._surface("creepage", log_load, s, places)[2]
 
     def creepage_at(self, load: float, share: float, places: Places) -> float:
@@ -195,13 +195,13 @@ class NipLaw:
     def at(self, approach: Array, creepage: Array, places: Places) -> CrossSections:
         """Return load and traction of cross-sections, with their derivatives.
 
-        Where the approach is not positive the nip is open, and all is 0. Below the smallest load of
-        the table the load goes as a power of the approach.
+        Where the approach is not positive the nip is open, and all values are 0. Below the smallest
+        load of the table the load varies as a power of the approach.
 
         Parameters
         ----------
         approach : (n,) [mm].
-        creepage : (n,); without friction it does not matter.
+        creepage : (n,); not used without friction.
         places : coverings at the n places.
         """
         touching = approach > 0.0
@@ -239,7 +239,7 @@ class NipLaw:
         )
 
     def _located(self, log_approach: Array, creepage: Array, places: Places) -> tuple[Array, Array]:
-        """Return ln F and s where approach and creepage are as given, by Newton's method."""
+        """Return ln F and s for given approach and creepage, by Newton's method."""
         middle = np.log(self.table["approach"][:, :, self.s.size // 2]).mean(axis=0)
         log_load = np.interp(log_approach, middle, np.log(self.loads))
         s = np.zeros_like(log_load)
@@ -249,7 +249,7 @@ class NipLaw:
             if self.s.size > 1:
                 x, x_f, x_s = self._surface("creepage", log_load, s, places)
                 step = (a_f * (creepage - x) - x_f * wrong) / (a_f * x_s - a_s * x_f)
-                # Where all slides, more creepage changes nothing.
+                # Where the whole nip slides, more creepage changes nothing.
                 s = np.clip(s + np.clip(step, -0.5, 0.5), -1.0, 1.0)
             step_load = (wrong - a_s * (s - before)) / a_f
             log_load = log_load + np.clip(step_load, -1.0, 1.0)
@@ -261,9 +261,9 @@ class NipLaw:
     def _splines(self) -> dict[str, list[CubicSpline | RectBivariateSpline]]:
         """Splines of every figure, one for each state of the coverings.
 
-        Positive ones are splined by their logarithm, torques and losses over the load. The friction
-        loss goes with the square of s, on either side of free rolling with another factor: its root
-        is taken, and no spline goes through the kink.
+        Positive figures are interpolated by their logarithm, torques and losses by their ratio to
+        the load. The friction loss varies as the square of s, with different factors on either side
+        of free rolling: its root is interpolated, and no spline passes through the kink.
         """
         from scipy.interpolate import CubicSpline, RectBivariateSpline
 
@@ -291,9 +291,9 @@ class NipLaw:
     def _surface(
         self, name: str, log_load: Array, s: Array, places: Places
     ) -> tuple[Array, Array, Array]:
-        """Return a figure's spline with its derivatives by ln F and by s, each (n,).
+        """Return a figure's spline with its derivatives with respect to ln F and s, each (n,).
 
-        Beyond the table it goes on as a plane. A figure that the nips do not have is nan.
+        Beyond the table it is continued as a plane. A figure that the nips do not have is nan.
         """
         if name not in self._splines:
             nothing = np.full_like(log_load, np.nan)
@@ -322,9 +322,9 @@ class NipLaw:
     def _by_slip(
         self, spline: RectBivariateSpline, name: str, log_load: Array, s: Array, dx: int = 0
     ) -> Array:
-        """Return the derivative by s, (n,), of a spline or, with dx = 1, of its slope by ln F.
+        """Return the derivative of a spline by s, (n,); with dx = 1, that of its slope by ln F.
 
-        Of a kinked one it is the slope between nips.
+        For a kinked figure it is the slope of the line between two nips.
         """
         if name not in _KINKED:
             return np.asarray(spline.ev(log_load, s, dx=dx, dy=1))

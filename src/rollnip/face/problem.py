@@ -1,4 +1,4 @@
-"""What a face is made of: beams, crowns, skew, coverings and loads, all but the law of its nips."""
+"""The problem of a face without the law of its nips: beams, crowns, skew, coverings, loads."""
 
 from __future__ import annotations
 
@@ -26,19 +26,20 @@ _LARGEST_CROWN = 0.05  # of the radius
 
 @dataclass(frozen=True, slots=True)
 class FaceProblem:
-    """Everything of a face but the law of its cross-sections.
+    """Everything about a face except the law of its cross-sections.
 
     Attributes
     ----------
     nip, face : the problem.
     grid : places along the face.
-    upper, lower : (n, n) deflection of each axis by the line load [mm2/N].
-    weights : (2,) weight per length of each roller towards the lower one [N/mm].
-    still : (n,) what delta has without load: crowns and skew, less what weight bends [mm].
+    upper, lower : (n, n) deflection of each axis per line load [mm2/N].
+    weights : (2,) weight per length of each roller, towards the lower one [N/mm].
+    still : (n,) part of delta that does not depend on load: crowns and skew, less bending by weight
+        [mm].
     rise : (2, n) crown of each roller over its radius.
-    coverings : what the coverings are at the places.
-    stiffness : factor on every modulus of the layers.
-    relief : what both ends of the face do; None: the nip is plane up to them.
+    coverings : the coverings at the places.
+    stiffness : factor on all moduli of the layers.
+    relief : how both ends of the face depart from the plane nip; None: they do not.
     """
 
     nip: Nip
@@ -54,7 +55,7 @@ class FaceProblem:
     relief: Relief | None = None
 
     def places(self, law: NipLaw) -> Places:
-        """Return the coverings as a law takes them; near an end that gives way load is less."""
+        """Return the coverings as a law uses them, scaled by the relief near the ends."""
         places = law.places(self.coverings)
         if self.relief is None:
             return places
@@ -62,7 +63,7 @@ class FaceProblem:
 
     @property
     def local(self) -> Array:
-        """Creepage that the local radii add, (n,)."""
+        """Creepage due to the local radii, (n,)."""
         return np.asarray(self.rise[0] - self.rise[1])
 
     @property
@@ -93,7 +94,7 @@ class FaceProblem:
 
     @property
     def tilt(self) -> float | None:
-        """Tilt b that is given; None where it follows from the moment."""
+        """The tilt b, if it is given; None where it follows from the moment."""
         if self.face.bearing_offset is not None:
             assert self.nip.upper.shaft is not None
             return self.face.bearing_offset / self.nip.upper.shaft.bearing_distance
@@ -105,13 +106,13 @@ class FaceProblem:
 def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> FaceProblem:
     """Return beams, crowns and skew of a face on ``count`` places.
 
-    ``stiffness`` is a factor on every modulus of the layers.
+    ``stiffness`` is a factor on all moduli of the layers.
 
     Raises
     ------
     InvalidInputError
-        where a shaft does not fit its roller, a crown is larger than the covering can take, or
-        end loads are given without a shaft of the upper roller.
+        where a shaft does not fit its roller, a crown is larger than the covering allows, or end
+        loads are given without a shaft of the upper roller.
     """
     for name in ("end_loads", "bearing_offset"):
         if getattr(face, name) is not None and nip.upper.shaft is None:
@@ -165,7 +166,7 @@ def _crown(roller: Roller, grid: FaceGrid) -> Array:
 
 
 def _require_possible(problem: FaceProblem) -> None:
-    """Raise InvalidInputError where no face can be in balance, whatever its law."""
+    """Raise InvalidInputError where no face can be in equilibrium, whatever its law."""
     total, moment, length = problem.total, problem.moment, problem.face.length
     if total is not None and moment is not None and total > 0.0:
         place = moment / total
@@ -199,7 +200,7 @@ def _require_covered(roller: Roller, crown: Array) -> None:
 
 
 def in_section(roller: Roller) -> Roller:
-    """Return a roller with what counts in its cross-section alone: no shaft, nothing of heat."""
+    """Return a roller with only what affects its cross-section: no shaft, no thermal properties."""
     layers = tuple(replace(one, material=_cold(one.material)) for one in roller.layers)
     return replace(roller, layers=layers, core=_cold(roller.core), shaft=None)
 

@@ -2,11 +2,11 @@
 
 Where one roller ends on the longer covering of the other, or a covering itself ends, the
 cross-sections near the end are not plane (see `rollnip.patch.face_end` and
-`rollnip.patch.covering_end`). Ends are solved at a few approaches, evenly spaced in their logarithm
-and kept for the next face. Between them the ratios to the plane nip are interpolated over the
-distance from the end, in units of the length that each solution covers. A place of the face stands
-for its share of the length, so that it holds the mean ratio over this share: then the load of the
-whole face has what the end adds or takes, however few places lie there.
+`rollnip.patch.covering_end`). Ends are solved at a few approaches, evenly spaced in their
+logarithm, and kept for the next face. Between them the ratios to the plane nip are interpolated
+over the distance from the end, in units of the length that each solution covers. A place of the
+face represents its share of the length and is given the mean ratio over this share. The load of the
+whole face then includes what the end adds or takes away, however few places lie there.
 """
 
 from __future__ import annotations
@@ -45,10 +45,10 @@ class End:
     Attributes
     ----------
     distance : (k + 1,) from the end [mm], increasing from 0.
-    load, peak : (k + 1,) integrals from the end of the ratios of load and peak pressure to those
-        of the plane nip [mm]; beyond, the ratios are 1.
+    load, peak : (k + 1,) integrals from the end of the ratios of load and peak pressure to those of
+        the plane nip [mm]; beyond the last distance the ratios are 1.
     added_length : length of face that the end adds to the load [mm]; negative: it carries less.
-    error : of that length [mm].
+    error : error of that length [mm].
     """
 
     distance: Array
@@ -67,12 +67,12 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Relief:
-    """Both ends of a face, at y < 0 and at y > 0; None: there the nip is open."""
+    """Both ends of a face, at y < 0 and at y > 0; None where the nip is open."""
 
     ends: tuple[End | None, End | None]
 
     def ratios(self, grid: FaceGrid) -> tuple[Array, Array]:
-        """Return load and peak pressure at the places over those of plane nips, each (n,)."""
+        """Return load and peak pressure at the places, relative to plane nips, each (n,)."""
         edges = np.concatenate([[0.0], np.cumsum(grid.weights)])
         load, peak = np.ones(grid.y.size), np.ones(grid.y.size)
         first, second = self.ends
@@ -122,7 +122,7 @@ def _end(nip: Nip, face: Face, approach: float, rows: NipRows) -> End:
 
 
 def _kept(nip: Nip, face: Face, node: int, rows: NipRows) -> FaceEnd:
-    """Return the end at the approach of a node, from those kept or solved now."""
+    """Return the end at the approach of a node, kept from before or solved now."""
     upper, lower = (replace(one, shaft=None) for one in (nip.upper, nip.lower))
     key = (upper, lower, face.ends, face.end_radius, node)
     if key not in rows.ends:
@@ -142,7 +142,7 @@ def _solved(upper: Roller, lower: Roller, face: Face, approach: float) -> FaceEn
 
 
 def _integrated(end: FaceEnd) -> tuple[Array, Array, Array]:
-    """Return edges of equal parts along y and the integrals up to them, each (k + 1,)."""
+    """Return edges of equal parts along y, and both integrals up to them, each (k + 1,)."""
     step = float(end.distance[1] - end.distance[0])
     count = end.distance.size
     edges = step * np.arange(count + 1.0)

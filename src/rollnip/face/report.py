@@ -1,4 +1,4 @@
-"""A solved face as a tree for JSON, and as lines for a terminal."""
+"""A solved face as a tree for JSON, and as lines of text for a terminal."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _OF_FRICTION = ("creepage", "total_traction", "largest_scrub")
 
 
 def face_dict(solution: FaceSolution) -> dict[str, Any]:
-    """Return the key "face" of a result: scalars, bearings, errors, lists over y."""
+    """Return the value of the key "face" of a result: scalars, bearings, errors, lists over y."""
     bearings = {
         name: None if one is None else [one.first, one.second]
         for name, one in ((name, solution.bearings(name)) for name in ("upper", "lower"))
@@ -53,9 +53,9 @@ def face_dict(solution: FaceSolution) -> dict[str, Any]:
 
 
 def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], dict[str, Any]]:
-    """Return the key "face" as variables and attributes of an xarray dataset, over ``y``.
+    """Return the contents of the key "face" as variables and attributes of an xarray dataset.
 
-    Names begin with ``face_``; None is nan.
+    Variables are over ``y``; their names begin with ``face_``, and None becomes nan.
     """
     variables: dict[str, tuple[Any, ...]] = {}
     for key, figure in {**FACE_PROFILES, **SHEET_FACE_PROFILES}.items():
@@ -89,7 +89,7 @@ def _floats(values: list[float | None]) -> list[float]:
 
 
 def reading_dict(reading: ImpressionReading) -> dict[str, Any]:
-    """Return the reading of impressions: estimates with intervals, and how well the face fits."""
+    """Return a reading of impressions as a tree: estimates with intervals, and the fit."""
     return {
         "estimates": {
             one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
@@ -129,11 +129,11 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
 def face_lines(
     solution: FaceSolution, said: Collection[str] = (), units: Units = "metric"
 ) -> Iterator[str]:
-    """Yield the summary of a face, line by line, without warnings that were ``said`` before.
+    """Yield the summary of a face, line by line.
 
     Parameters
     ----------
-    said : warnings that were shown before.
+    said : warnings that were shown before, and are left out.
     units : metric or US ones.
     """
     word = "converged and verified" if solution.converged else "NOT CONVERGED"
@@ -168,7 +168,7 @@ def _has_friction(solution: FaceSolution) -> bool:
 
 
 def _quiet(key: str, value: float, solution: FaceSolution) -> float:
-    """Return 0 for a total that is a rounding error beside its size."""
+    """Return a total, or 0 where it is a rounding error beside its size."""
     sizes = {
         "total_traction": solution.total_load,
         "feed_difference": 1.0,
@@ -180,6 +180,6 @@ def _quiet(key: str, value: float, solution: FaceSolution) -> float:
 
 
 def _four(value: float, values: Array) -> str:
-    """Return four digits of a value; 0 where it is rounding beside the largest."""
+    """Return a value with four digits; 0 where it is a rounding error beside the largest."""
     size = float(np.max(np.abs(values), initial=0.0))
     return "0" if abs(value) < 1e-9 * max(size, 1e-12) else f"{value:.4g}"

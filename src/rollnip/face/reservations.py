@@ -22,7 +22,7 @@ OPEN = "open_face"
 
 
 def reservations_of(problem: FaceProblem, found: Balance, model: Model) -> tuple[Reservation, ...]:
-    """Return reservations on a face: where it is open, where it slides, what is left out."""
+    """Return the reservations on a face: where it is open, where it slides, what is left out."""
     out = []
     y, carries = problem.grid.y, found.approach > 0.0
     if not carries.all():
@@ -46,12 +46,12 @@ def reservations_of(problem: FaceProblem, found: Balance, model: Model) -> tuple
 
 
 def energies_of(nip: Nip) -> list[Reservation]:
-    """Return a reservation for each strain energy of a nip that its plane nips do not see."""
+    """Return a reservation for each strain energy that the plane nips of a face ignore."""
     return [*energies_left_out("upper", nip.upper), *energies_left_out("lower", nip.lower)]
 
 
 def places(y: Array, chosen: NDArray[np.bool_]) -> str:
-    """Return in words where along the face something holds: from the first to the last place."""
+    """Return in words where along the face something holds, from the first to the last place."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
     runs = [(y[a], y[b - 1]) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     unit = FACE_PROFILES["y"].shown_unit

@@ -16,18 +16,18 @@ Place = tuple[float, float]
 
 
 class NipRows:
-    """Plane nips that were solved for laws, and the influence functions they were solved with.
+    """Plane nips that were solved for laws, and the influence functions used for them.
 
-    Pass one object to several `solve_face`: the lattice of loads and slips is the same for all
-    tables, so that faces that differ in crown, shaft or load share most of their nips. A result is
-    the same to the last bit with it and without.
+    Pass one object to several calls of `solve_face`. The lattice of loads and slips is the same for
+    all tables, so that faces that differ in crown, shaft or load share most of their nips. A result
+    is the same to the last bit with it and without it.
 
     Parameters
     ----------
     kernels :
-        influence functions to begin with.
+        initial influence functions.
     most :
-        nips kept; the oldest go first. Each is some 300 bytes.
+        number of nips kept; the oldest are dropped first. Each takes some 300 bytes.
     """
 
     def __init__(self, kernels: KernelCache | None = None, most: int = 50_000) -> None:
@@ -40,7 +40,7 @@ class NipRows:
         self._rows: OrderedDict[tuple[object, ...], Row | str] = OrderedDict()
 
     def __len__(self) -> int:
-        """Return the number of nips that are kept."""
+        """Return the number of nips kept."""
         return len(self._rows)
 
     def get(self, nip: Nip, model: Model, place: Place) -> Row | str | None:
@@ -55,7 +55,7 @@ class NipRows:
 
 
 def _key(nip: Nip, model: Model, place: Place) -> tuple[object, ...]:
-    """Return a key of a plane nip of a law, whatever the last digit of its load."""
+    """Return a key of a plane nip of a law, independent of the last digits of its load."""
     load, s = place
     rollers = tuple((one.radius, one.layers, one.core) for one in (nip.upper, nip.lower))
     return (*rollers, nip.friction, nip.speed, model, f"{load:.9e}", round(float(s), 9))

@@ -1,4 +1,4 @@
-"""A face with a sheet in balance: rollers that bend, and a sheet that each place feeds and pulls.
+"""The equilibrium of a face with a sheet: rollers that bend, and a sheet fed and pulled everywhere.
 
 At every place y the cross-section has a load F and tractions T_u, T_l, and
 
@@ -8,13 +8,14 @@ With the local radii R_u + c_u and R_l + c_l, and f the feed of the cross-sectio
 
     ln(V_s/V_u) = ln(1 + f_u) + ln(1 + c_u/R_u),   ln(V_s/V_l) = ln(1 + f_l) + ln(1 + c_l/R_l),
 
-V_u, V_l the speeds of both rollers by their nominal radii, V_s that of the sheet free of tension.
-- "free": the sheet is as if cut into strips. Every strip has the tensions of the sheet's table,
-  T_u - T_l = tension_in - tension_out, and a speed of its own; V_u/V_l is one number.
-- "one-speed": the sheet holds together, and no part of it may run ahead. V_s is one number, the
-  tension at the outlet is even, and that at the inlet is tension_out + T_u - T_l at each place,
-  in the mean tension_in.
-Newton's method on ln F, s_u, s_l at all places and on delta_0, b and both speeds together.
+where V_u, V_l are the speeds of both rollers by their nominal radii, and V_s is that of the sheet
+free of tension.
+- "free": the sheet behaves as if cut into strips. Every strip has the tensions of the sheet's
+  table, T_u - T_l = tension_in - tension_out, and a speed of its own; V_u/V_l is one number.
+- "one-speed": the sheet is whole, and no part of it can run ahead. V_s is one number, the tension
+  at the outlet is even, and that at the inlet is tension_out + T_u - T_l at each place, with the
+  mean tension_in.
+Newton's method solves for ln F, s_u, s_l at all places, delta_0, b and both speeds together.
 """
 
 from __future__ import annotations
@@ -34,13 +35,13 @@ Array = NDArray[np.float64]
 
 _MOST_STEPS = 80
 _SETTLED = 1e-9
-_LARGEST = (0.5, 0.1, 0.1)  # step of ln F and of both s
-_SPEEDS = 0.01  # a feed, by which equations of speeds are weighed
+_LARGEST = (0.5, 0.1, 0.1)  # largest steps of ln F and of both s
+_SPEEDS = 0.01  # typical feed, by which the equations of speeds are scaled
 
 
 @dataclass(frozen=True, slots=True)
 class SheetBalance:
-    """A face with a sheet in balance.
+    """The equilibrium of a face with a sheet.
 
     Attributes
     ----------
@@ -59,13 +60,13 @@ class SheetBalance:
 
 @dataclass(frozen=True, slots=True)
 class _FaceState:
-    """The cross-sections at all places, with derivatives by ln F, s_u and s_l.
+    """The cross-sections at all places, with derivatives with respect to ln F, s_u and s_l.
 
     Attributes
     ----------
     load : (n,) [N/mm].
-    approach, upper, lower : (n,) approach [mm], T_u and T_l [N/mm], with (3, n) slopes.
-    rates : (2, n) ln(V_s/V_u) and ln(V_s/V_l), with (2, 3, n) slopes.
+    approach, upper, lower : (n,) approach [mm], T_u and T_l [N/mm], with (3, n) derivatives.
+    rates : (2, n) ln(V_s/V_u) and ln(V_s/V_l), with (2, 3, n) derivatives.
     """
 
     load: Array
@@ -97,18 +98,19 @@ def _state(problem: FaceProblem, law: SheetLaw, points: Array) -> _FaceState:
 
 
 def sheet_balance(problem: FaceProblem, law: SheetLaw, start: Array, middle: float) -> SheetBalance:
-    """Return the face with its sheet in balance.
+    """Return the equilibrium of a face with a sheet.
 
     Parameters
     ----------
     problem, law : the face and its cross-sections.
-    start : (3, n) ln F, s_u and s_l to begin with.
-    middle : delta_0 to begin with [mm].
+    start : (3, n) initial ln F, s_u and s_l.
+    middle : initial delta_0 [mm].
 
     Raises
     ------
     ConvergenceError
-        where Newton's method does not settle, as where the nip opens or the sheet slips through.
+        where Newton's method does not settle, for example because the nip opens or the sheet slips
+        through.
     """
     n = problem.grid.y.size
     rates = _state(problem, law, start).rates[0].mean(axis=1)
@@ -142,7 +144,7 @@ def _found(problem: FaceProblem, law: SheetLaw, unknowns: Array) -> SheetBalance
 
 
 def _residual(problem: FaceProblem, law: SheetLaw, unknowns: Array) -> tuple[Array, Array]:
-    """Return what is left of the equations, (3 n + 4,), and their derivatives."""
+    """Return the residuals of the equations, (3 n + 4,), and their derivatives."""
     n, y = problem.grid.y.size, problem.grid.y
     points, (middle, tilt, upper, lower) = unknowns[: 3 * n].reshape(3, n), unknowns[3 * n :]
     state = _state(problem, law, points)
@@ -176,7 +178,7 @@ def _residual(problem: FaceProblem, law: SheetLaw, unknowns: Array) -> tuple[Arr
 
 
 def _pull(law: SheetLaw) -> float:
-    """Return the pull that the sheet's table gives [N/mm]."""
+    """Return the pull on the sheet given by its table [N/mm]."""
     sheet = law.nip.sheet
     assert sheet is not None
     return sheet.tension_in - sheet.tension_out
@@ -191,7 +193,7 @@ def _mean(row: int, n: int, weight: Array, by: Array, slopes: Array, factor: flo
 def _carry(
     problem: FaceProblem, state: _FaceState, pose: tuple[float, float], wrong: Array, slopes: Array
 ) -> None:
-    """Write the equations of load and moment, or of approach and tilt, into their rows."""
+    """Write the equations of load and moment, or of approach and tilt."""
     grid, n = problem.grid, problem.grid.y.size
     length, total, moment = problem.face.length, problem.total, problem.moment
     by = np.zeros((3, n))
@@ -222,7 +224,7 @@ def _drive(
     wrong: Array,
     slopes: Array,
 ) -> None:
-    """Write the equations of both speeds: pull in the mean, and what drives the lower roller."""
+    """Write the equations of both speeds: of the mean pull, and of the lower roller's drive."""
     n, weights, length = problem.grid.y.size, problem.grid.weights, problem.face.length
     held = 1.0 / (sum(law.frictions) * float(weights @ state.load))
     row, last = 3 * n + 2, 3 * n + 3
@@ -231,7 +233,7 @@ def _drive(
             float(weights @ (state.upper[0] - state.lower[0])) - _pull(law) * length
         )
         _mean(row, n, weights, state.upper[1] - state.lower[1], slopes, held)
-    else:  # the sheet has no speed of its own: V_u is the measure of all
+    else:  # the sheet has no common speed; speeds are relative to V_u
         wrong[row], slopes[row, row] = speeds[0] / _SPEEDS, 1.0 / _SPEEDS
     control = problem.nip.tangential
     if isinstance(control, Creepage):

@@ -1,4 +1,4 @@
-"""The verified solution of a face with a sheet, on a table that grows until it covers the face."""
+"""The verified solution of a face with a sheet, with a table extended until it covers the face."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ from rollnip.solver import solve
 
 Array = NDArray[np.float64]
 
-_MARGIN = np.array([0.08, 0.02, 0.02])  # of ln F and s about what a face needs
-_NARROWEST = np.array([0.3, 0.12, 0.12])  # edges of a box
+_MARGIN = np.array([0.08, 0.02, 0.02])  # margin in ln F and both s around what a face needs
+_NARROWEST = np.array([0.3, 0.12, 0.12])  # smallest edges of a box
 _MOST_TABLES = 8
 _FEWEST, _MOST_NODES = (3, 3), 7
 
@@ -46,10 +46,10 @@ class SheetFaceMaker:
 
     Attributes
     ----------
-    problem, model, kernels, progress, executor : as `solve_face` has them.
+    problem, model, kernels, progress, executor : as for `solve_face`.
     plain : line loads (n,) of the same face without sheet and friction [N/mm], and delta_0 [mm];
-        None: the table's own middle is where the search begins.
-    claim, wanted : errors that are allowed, and that ask for a finer table.
+        None: the search starts from the middle of the table.
+    claim, wanted : the allowed error, and the error above which a finer table is made.
     """
 
     problem: FaceProblem
@@ -62,7 +62,7 @@ class SheetFaceMaker:
     wanted: float
 
     def solved(self, law: SheetLaw | None) -> SheetFaceSolution:
-        """Return the face, on a table of an earlier one where that covers it."""
+        """Return the solved face, on an earlier table where that covers it."""
         if law is None:
             start, middle = self._start()
             law = self._table(_box_about(start), 0)
@@ -95,7 +95,7 @@ class SheetFaceMaker:
         return replace(law, solves=law.solves + before)
 
     def _start(self) -> tuple[Array, float]:
-        """Return ln F, s_u and s_l to begin with, and delta_0."""
+        """Return initial ln F, s_u and s_l, and delta_0."""
         assert self.plain is not None
         nip, (load, middle) = self.problem.nip, self.plain
         mean = float(self.problem.grid.weights @ load) / self.problem.face.length
@@ -109,7 +109,7 @@ class SheetFaceMaker:
         return np.array([np.log(load), *slips]), middle
 
     def _start_on(self, law: SheetLaw) -> tuple[Array, float]:
-        """Return an even load and the middle of a table's slips, and a delta_0 that suits them."""
+        """Return an even load with the middle of a table's slips, and a matching delta_0."""
         problem, n = self.problem, self.problem.grid.y.size
         centre = 0.5 * (law.box.low + law.box.high)
         if problem.total is not None:
@@ -122,8 +122,9 @@ class SheetFaceMaker:
     def _errors(self, law: SheetLaw, found: SheetBalance) -> dict[str, float]:
         """Return the errors of the law at places of the face.
 
-        Nips are solved afresh where the load is largest and smallest, and where it is nearest to
-        the mean. Feeds are off by a share of the speed, tractions by one of friction * load.
+        Nips are solved afresh where the load is largest and smallest, and where it is closest to
+        the mean. Errors of feeds are shares of the speed, those of tractions shares of friction *
+        load.
         """
         load = found.points[0]
         chosen = {int(np.argmax(load)), int(np.argmin(load))}
@@ -196,7 +197,7 @@ class SheetFaceMaker:
 
 
 def _section(load: Array, traction: Array) -> CrossSections:
-    """Return load and traction as a face holds them; nothing else of them is asked for."""
+    """Return load and traction as a `FaceSolution` holds them; its other fields are not used."""
     nothing = np.zeros_like(load)
     return CrossSections(
         load, traction, nothing, nothing, nothing, nothing, np.log(load), nothing, (nothing,) * 4
@@ -204,7 +205,7 @@ def _section(load: Array, traction: Array) -> CrossSections:
 
 
 def _box_about(points: Array, counts: tuple[int, int] = _FEWEST) -> Box:
-    """Return a box that holds points (3, n), and some more."""
+    """Return a box that holds points (3, n), with a margin."""
     low, high = points.min(axis=1) - _MARGIN, points.max(axis=1) + _MARGIN
     middle, half = 0.5 * (low + high), np.maximum(0.5 * (high - low), 0.5 * _NARROWEST)
     low, high = middle - half, middle + half
@@ -213,7 +214,7 @@ def _box_about(points: Array, counts: tuple[int, int] = _FEWEST) -> Box:
 
 
 def _require_grip(box: Box) -> None:
-    """Raise where the sheet slides on a roller over a part of the face."""
+    """Raise ConvergenceError where the sheet slides on a roller over a part of the face."""
     for i, side in ((1, "upper"), (2, "lower")):
         if box.high[i] - box.low[i] < 0.5 * _NARROWEST[i]:
             raise ConvergenceError(
@@ -236,11 +237,12 @@ def solve_face_with_sheet(
 
     Parameters
     ----------
-    problem, model, kernels, progress, executor : as `solve_face` has them.
-    law : table of an earlier face of the same cross-section and sheet; None: there is none.
-    plain : line loads without sheet and friction at the places [N/mm], and their delta_0 [mm];
-        not needed beside ``law``.
-    errors : that a converged face may have, and beyond which its table is made finer.
+    problem, model, kernels, progress, executor : as for `solve_face`.
+    law : table of an earlier face with the same cross-section and sheet; None: there is none.
+    plain : line loads without sheet and friction at the places [N/mm], and their delta_0 [mm]; not
+        needed with a ``law``.
+    errors : the allowed error of a converged face, and the error above which its table is made
+        finer.
 
     Raises
     ------
@@ -257,7 +259,7 @@ def solve_face_with_sheet(
 
 
 def require_even_covering(problem: FaceProblem) -> None:
-    """Raise InvalidInputError where the covering varies along the face, or its ends give way."""
+    """Raise InvalidInputError where the covering varies along the face, or ends are not plane."""
     if problem.face.ends != "plane":
         raise InvalidInputError(
             f'`ends` must be "plane" beside a sheet, got "{problem.face.ends}".'

@@ -1,17 +1,17 @@
-"""The nip with a sheet as a law: approach, feed and torques by load and the pulls of both sides.
+"""The nip with a sheet as a law: approach, feed and torques as functions of load and tractions.
 
-A cross-section is determined by three numbers: its line load F and the tractions T_u, T_l of the
-two interfaces. Their difference is the pull, tension_in - tension_out; the tension at the outlet is
+A cross-section is determined by three numbers: its line load F and the tractions T_u, T_l of both
+interfaces. Their difference is the pull, tension_in - tension_out; the tension at the outlet is
 that of the sheet's table. Each traction is measured by Carter's law of partial slip, as in `law`,
 
     T/(mu F) = sign(s) (1 - (1 - |s|)^2).
 
-Plane nips are solved at nodes of a box in (ln F, s_u, s_l), and a polynomial goes through them by
-least squares: in ln F of any degree below the number of nodes, in both s of that degree together.
+Plane nips are solved at nodes of a box in (ln F, s_u, s_l). A polynomial is fitted to them by least
+squares: in ln F of any degree below the number of nodes, in both s of that total degree.
 
-A pull may ask for a tension below zero at the inlet, which a plane nip refuses. Then both tensions
-are raised by a, and the sheet runs with a strain more by the compliance c a everywhere: its speed
-free of tension is lower by the factor 1 + c a, by which it is raised again.
+A pull may require a negative tension at the inlet, which a plane nip refuses. Then both tensions
+are raised by a, and the sheet has an additional strain everywhere, by its compliance c of c a. Its
+speed free of tension is thereby reduced by the factor 1 + c a, by which it is increased again.
 """
 
 from __future__ import annotations
@@ -41,25 +41,25 @@ Progress = Callable[[int, int], None]
 Point = tuple[float, float, float]
 """ln F [N/mm], s of the upper and of the lower interface."""
 Values = tuple[float, ...]
-"""The figures of a cross-section as the law holds them, in the order of `SHEET_NAMES`."""
+"""The figures of a cross-section as stored in the law, in the order of `SHEET_NAMES`."""
 
 _LOGS = ("approach", "nip_width", "peak_pressure")
 _RATES = ("feed_upper", "feed_lower")  # ln(1 + feed), additive in speeds
 _PER_LOAD = ("torque_upper", "torque_lower", "friction_loss", "viscous_loss")
 SHEET_NAMES = (*_LOGS, *_RATES, *_PER_LOAD, "slip_width")
-"""Figures of the law; slip is that of the upper interface."""
+"""Figures of the law; the slip width is that of the upper interface."""
 MOST_SLIP = 0.9
-"""Largest measure of slip of a box; beyond, the sheet is about to slide."""
+"""Largest measure of slip in a box; beyond it the sheet is about to slide."""
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A range of cross-sections, and how many are solved along each of its edges.
+    """A range of cross-sections, and how many are solved along each edge.
 
     Attributes
     ----------
-    low, high : (3,) of ln F, s_u and s_l.
-    counts : nodes in ln F, and in each s.
+    low, high : (3,) bounds of ln F, s_u and s_l.
+    counts : number of nodes in ln F, and in each s.
     """
 
     low: Array
@@ -68,7 +68,7 @@ class Box:
 
     @property
     def nodes(self) -> list[Point]:
-        """Chebyshev's points of the box."""
+        """Chebyshev points of the box."""
         edges = []
         for i, count in enumerate((self.counts[0], self.counts[1], self.counts[1])):
             t = -np.cos(np.pi * (np.arange(count) + 0.5) / count)
@@ -77,7 +77,7 @@ class Box:
 
     @property
     def powers(self) -> list[tuple[int, int, int]]:
-        """Degrees of the polynomials that a figure is made of."""
+        """Degrees of the polynomials of which a figure is a sum."""
         loads, slips = self.counts
         both = [(j, k) for j in range(slips) for k in range(slips - j)]
         return [(i, j, k) for i in range(loads) for j, k in both]
@@ -92,7 +92,7 @@ class Box:
     def basis(self, points: Array) -> tuple[Array, Array]:
         """Return the polynomials at points (3, n), (n, p), and their derivatives, (3, n, p).
 
-        Beyond the box they go on as planes.
+        Outside the box they are continued as planes.
         """
         near = np.clip(points, self.low[:, None], self.high[:, None])
         t = (near - self._middle[:, None]) / self._half[:, None]
@@ -131,12 +131,12 @@ class SheetLaw:
 
     Attributes
     ----------
-    nip, model : of the cross-section; its own load, traction and pull do not matter.
+    nip, model : of the cross-section; the nip's own load, traction and pull are not used.
     box : the range that was solved.
-    table : name of a figure -> (p,) its share of each polynomial of the box.
-    misfit : largest distance of a polynomial from a node, by figure: relative of lengths and
-        pressures, absolute of feeds.
-    error : what nips solved afresh at places of the first face differ by, as `FaceSolution` has it;
+    table : name of a figure -> (p,) its coefficient for each polynomial of the box.
+    misfit : largest difference between polynomial and nodes, by figure: relative for lengths and
+        pressures, absolute for feeds.
+    error : differences from nips solved afresh at places of the first face, as in `FaceSolution`;
         empty until then.
     solves : number of nips that were solved, for earlier boxes too.
     kernels : influence functions.
@@ -157,10 +157,10 @@ class SheetLaw:
         return self.nip.friction_on("upper"), self.nip.friction_on("lower")
 
     def surface(self, name: str, points: Array) -> tuple[Array, Array]:
-        """Return what a figure's polynomial gives at points (3, n), and its slopes (3, n).
+        """Return a figure's polynomial at points (3, n), and its derivatives (3, n).
 
-        Of lengths and pressures the logarithm, of feeds ln(1 + feed), of torques and losses those
-        over the load.
+        For lengths and pressures it is the logarithm, for feeds ln(1 + feed), for torques and
+        losses their ratio to the load.
         """
         whole, by = self.box.basis(points)
         return whole @ self.table[name], by @ self.table[name]
@@ -192,20 +192,20 @@ def sheet_law(
     progress: Progress | None = None,
     executor: Executor | None = None,
 ) -> SheetLaw:
-    """Solve the nips of a box.
+    """Solve the nips of a box, and return their law.
 
     Parameters
     ----------
     nip, model : the cross-section; its load, traction and inlet tension are varied.
-    box : what is solved.
-    kernels : influence functions to begin with.
-    progress : called after each nip with how many are solved, and of how many.
-    executor : solves nips in other processes; None: here.
+    box : the range to solve.
+    kernels : initial influence functions.
+    progress : called after each nip with the number solved and the total number.
+    executor : solves nips in other processes; None: in this one.
 
     Raises
     ------
     ConvergenceError
-        where more nips than a tenth could not be verified; the message is that of the first.
+        where more than a tenth of the nips could not be verified; the message is that of the first.
     """
     nodes = box.nodes
     tasks = [(nip, model, node) for node in nodes]
@@ -239,16 +239,16 @@ def sheet_law(
 
 
 def along_the_face(sheet: Sheet) -> Sheet:
-    """Return a sheet whose stiffness against bending counts only where that is asked for.
+    """Return a sheet whose bending stiffness is included only where that is asked for.
 
-    A sheet that resists bending wraps the roller to which its tension pulls it. Its figures turn
-    sharply where the pull changes sign, and no polynomial of a box goes through them.
+    A sheet that resists bending wraps the roller towards which its tension pulls it. Its figures
+    change abruptly where the pull changes sign, which no polynomial of a box can follow.
     """
     return replace(sheet, bending=bool(sheet.bending))
 
 
 def values_at(nip: Nip, model: Model, point: Point, kernels: KernelCache) -> Values | str:
-    """Return the figures of a plane nip as the law holds them, or why it has no solution."""
+    """Return the figures of a plane nip as stored in the law, or why it has no solution."""
     sheet = nip.sheet
     assert sheet is not None
     load = float(np.exp(point[0]))
@@ -314,7 +314,7 @@ def _values_of_task(task: tuple[Nip, Model, Point]) -> Values | str:
 
 
 def point_of(solution: SheetSolution) -> Point:
-    """Return where a plane nip with a sheet lies in a table."""
+    """Return the coordinates of a plane nip with a sheet in a table."""
     load, found, nip = solution.load, solution.sheet, solution.nip
     upper = slip_measure(found.traction_upper / (nip.friction_on("upper") * load))
     lower = slip_measure(found.traction_lower / (nip.friction_on("lower") * load))

@@ -22,15 +22,15 @@ Array = NDArray[np.float64]
 
 _PER_METRE = 1000.0  # mm per metre of web
 _LEAST = SHEET_FACE_FIGURES["least_tension_in"]
-_SLACK = 1e-6  # of the load: a tension that is more than rounding
+_SLACK = 1e-6  # tension over load, above which it is more than a rounding error
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SheetFaceSolution(FaceSolution):
     """A solved face with a sheet.
 
-    ``traction`` is what the lower roller takes, ``slip_width`` is that of the upper interface, and
-    feeds are against the rollers' nominal radii.
+    ``traction`` is that on the lower roller, ``slip_width`` that of the upper interface, and feeds
+    are relative to the rollers' nominal radii.
 
     Attributes
     ----------
@@ -76,14 +76,14 @@ class SheetFaceSolution(FaceSolution):
 
     @property
     def mean_feed(self) -> float:
-        """Mean of the feed against the upper roller over the face."""
+        """Mean over the face of the feed relative to the upper roller."""
         return float(self.problem.grid.weights @ self.feed_upper) / self.face.length
 
     @property
     def feed_difference(self) -> float:
-        """Feed of both ends of the face less that of the middle [mm per metre of sheet].
+        """Mean feed of both ends of the face minus that of the middle [mm per metre of sheet].
 
-        The mean of both ends less the middle; 0 where the sheet runs at one speed.
+        0 where the sheet runs at one speed.
         """
         feed = self.feed_upper
         ends = 0.5 * (feed[0] + feed[-1])
@@ -99,9 +99,10 @@ class SheetFaceSolution(FaceSolution):
     def taut_tension(self) -> float:
         """Mean inlet tension below which a sheet at one speed goes slack somewhere [N/mm].
 
-        At one speed: the mean of the tension less its smallest, on this face. Free: the tension
-        that stretches the sheet by the mean feed less the smallest, (mean f - min f) E h/(1 - nu^2)
-        over (1 + f); the nip gives way, so that a sheet at one speed needs less.
+        In a face solved with one speed: the mean of the tension minus its smallest value. With a
+        free sheet: the tension that stretches the sheet by the mean feed minus the smallest, (mean
+        f - min f) E h/(1 - nu^2) over (1 + f). The nip yields, so that a sheet at one speed needs
+        less than that.
         """
         if self.face.sheet_across == "one-speed":
             mean = float(self.problem.grid.weights @ self.tension_in) / self.face.length
@@ -125,7 +126,7 @@ class SheetFaceSolution(FaceSolution):
 
 
 def sheet_reservations(solution: SheetFaceSolution) -> tuple[Reservation, ...]:
-    """Return reservations: where the sheet is pushed, and what its plane nips leave out."""
+    """Return the reservations: where the sheet is pushed back, what its plane nips leave out."""
     out = []
     pushed = solution.tension_in < -_SLACK * solution.mean_load
     if pushed.any():

@@ -24,14 +24,14 @@ from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 
-_EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
-_ROUNDING = 1e-7  # of the largest load: error of a traction that balances and iterations leave
-_FINE = 2001  # places of an even grid, by which shares of the face are counted
+_EVEN = 0.1  # departure over the mean load, up to which a place counts as even
+_ROUNDING = 1e-7  # error of a traction that iterations leave, over the largest load
+_FINE = 2001  # places of an evenly spaced grid for computing shares of the face
 
 
 @dataclass(frozen=True, slots=True)
 class Bearings:
-    """Forces that the two bearings of a roller put on it, towards the other roller [N].
+    """Forces of the two bearings on a roller, towards the other roller [N].
 
     Attributes
     ----------
@@ -49,9 +49,10 @@ class FaceSolution:
     Attributes
     ----------
     nip, face, model : the problem.
-    converged : whether the balance settled and every claimed error is within ``tolerance``.
+    converged : whether the balance settled and every claimed error is within what the tolerance
+        allows.
     status : a sentence that says so, or what is wrong.
-    reservations : where it is open or slides, and what its plane nips leave out.
+    reservations : where the nip is open or slides, and what its plane nips leave out.
     error : relative errors: of approach, nip width and peak pressure by interpolation between plane
         nips, and of the load by the number of places along the face ("places").
     law : the table of cross-sections.
@@ -96,7 +97,7 @@ class FaceSolution:
 
     @property
     def approach(self) -> Array:
-        """Approach of the surfaces, (n,) [mm]; negative where the nip is open by as much."""
+        """Approach of the surfaces, (n,) [mm]; where the nip is open, minus the gap."""
         return sealed(self.balance.approach)
 
     @property
@@ -201,17 +202,17 @@ class FaceSolution:
 
     @property
     def power_upper(self) -> float | None:
-        """Power that the upper axle puts in [N mm/s = mW]; None without speed and for a plane."""
+        """Power supplied by the upper axle [N mm/s = mW]; None without speed, and for a plane."""
         return self._power(self.total_torque_upper, self.nip.upper.curvature, 1.0)
 
     @property
     def power_lower(self) -> float | None:
-        """Power that the lower axle puts in [N mm/s = mW]; None without speed and for a plane."""
+        """Power supplied by the lower axle [N mm/s = mW]; None without speed, and for a plane."""
         return self._power(self.total_torque_lower, self.nip.lower.curvature, -1.0)
 
     @property
     def bearing_offset(self) -> float | None:
-        """Travel of the upper bearing at y > 0 less that of the other [mm].
+        """Travel of the upper bearing at y > 0 minus that of the other [mm].
 
         None without a shaft of the upper roller.
         """
@@ -222,7 +223,7 @@ class FaceSolution:
     def plane_load(self) -> Array:
         """Line load of plane nips at the approaches of the face, (n,) [N/mm].
 
-        Like `load`, but for what the ends of the face do.
+        It is `load` without the effect of the ends of the face.
         """
         return sealed(plane_load(self.problem, self.balance))
 
@@ -239,7 +240,7 @@ class FaceSolution:
     def evenness(self) -> float:
         """Smallest over largest line load; 0 where the nip is open somewhere.
 
-        This and the other figures of evenness take the plane nip up to both ends of the face.
+        This and the other figures of evenness take the nip as plane up to both ends of the face.
         """
         return float(self.plane_load.min() / self.plane_load.max())
 
@@ -255,7 +256,7 @@ class FaceSolution:
         return self.share_within(_EVEN)
 
     def share_within(self, share: float) -> float:
-        """Return the part of the face whose line load is within ``share`` of the mean."""
+        """Return the share of the face whose line load is within ``share`` of the mean."""
         y = np.linspace(self.y[0], self.y[-1], _FINE)
         load = self.plane_load
         off = np.abs(np.interp(y, self.y, load) / self._mean(load) - 1.0)
@@ -263,13 +264,13 @@ class FaceSolution:
 
     @property
     def largest_scrub(self) -> float:
-        """Largest departure of the traction from its mean [N/mm]: surfaces that rub each other."""
+        """Largest departure of the traction from its mean [N/mm], a measure of scrubbing."""
         mean = self.total_traction / self.face.length
         scrub = float(np.max(np.abs(self.traction - mean)))
         return scrub if scrub > _ROUNDING * float(np.max(self.load)) else 0.0
 
     def to_xarray(self) -> Any:
-        """Return the face as an xarray Dataset over y: what the netCDF file of a result holds.
+        """Return the face as an xarray Dataset over y, with the contents of a result's netCDF file.
 
         Raises
         ------
@@ -303,7 +304,7 @@ class FaceSolution:
         return None if np.isnan(values).any() else sealed(values)
 
     def _power(self, torque: float | None, curvature: float, sign: float) -> float | None:
-        """Return torque times angular speed: both rollers turn as wholes, by nominal radii."""
+        """Return torque times angular speed; both rollers turn as wholes, by nominal radii."""
         speed = self.nip.speed
         if torque is None or speed is None:
             return None

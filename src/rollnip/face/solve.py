@@ -1,10 +1,10 @@
-"""The face of a nip in balance: cross-sections that carry load, rollers that bend under it.
+"""The equilibrium of a face: cross-sections that carry load, and rollers that bend under it.
 
     delta(y) = delta_0 + b y - v_u(y) - v_l(y) + c_u(y) + c_l(y) - (y theta)^2/(2 (R_u + R_l))
     w(y) = F(delta, xi),  t(y) = T(delta, xi),  xi(y) = xi_0 + c_u/R_u - c_l/R_l
 
-delta_0 and the tilt b follow from the load and from its moment (or are given), xi_0 from the mean
-traction or torque (or is given). Newton's method on delta(y), delta_0, b and xi_0 together.
+delta_0 and the tilt b follow from the load and its moment (or are given), xi_0 from the mean
+traction or torque (or is given). Newton's method solves for delta(y), delta_0, b and xi_0 together.
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ from rollnip.nip import Approach, Creepage, Torque, Traction
 Array = NDArray[np.float64]
 
 _MOST_STEPS = 60
-_SETTLED = 1e-10  # largest change of an approach over the mean one
+_SETTLED = 1e-10  # largest change of an approach in the last step, over the mean approach
 _SMALLEST_STEP = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """A face in balance.
+    """The equilibrium of a face.
 
     Attributes
     ----------
     approach : (n,) of the surfaces [mm]; negative where the nip is open.
     section : loads and tractions of the cross-sections.
-    places : coverings as the law takes them.
+    places : coverings in the form that the law uses.
     middle, tilt : delta_0 [mm] and b.
     creepage : xi_0.
-    steps : of Newton's method.
+    steps : number of steps of Newton's method.
     """
 
     approach: Array
@@ -55,9 +55,9 @@ class _System:
 
     Attributes
     ----------
-    problem, law : what they hold.
-    places : coverings as the law takes them.
-    scale : an approach, by which equations of another unit are weighed [mm].
+    problem, law : the face and its cross-sections.
+    places : coverings in the form that the law uses.
+    scale : typical approach, by which equations in other units are scaled [mm].
     """
 
     problem: FaceProblem
@@ -67,12 +67,12 @@ class _System:
 
 
 def balance(problem: FaceProblem, law: NipLaw, start: Balance | None = None) -> Balance:
-    """Return the face in balance.
+    """Return the equilibrium of a face.
 
     Parameters
     ----------
     problem, law : the face and its cross-sections.
-    start : a balance to start from, on as many places or twice as many; None: an even load.
+    start : a balance to start from, on as many places or on twice as many; None: an even load.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def balance(problem: FaceProblem, law: NipLaw, start: Balance | None = None) -> 
 
 
 def _newton(system: _System, unknowns: Array) -> Balance | None:
-    """Return the face in balance; None where Newton's method does not settle."""
+    """Return the equilibrium of a face; None where Newton's method does not settle."""
     wrong, slopes, section = _residual(system, unknowns)
     size = _size(wrong)
     for step in range(1, _MOST_STEPS + 1):
@@ -116,7 +116,7 @@ def _newton(system: _System, unknowns: Array) -> Balance | None:
 
 
 def _why_not(problem: FaceProblem) -> str:
-    """Return why a face may have no balance, and what helps."""
+    """Return the message on a face whose balance did not settle, and what may help."""
     nip = problem.nip
     if isinstance(nip.tangential, Torque) and problem.total is not None:
         carried = nip.friction * problem.total / problem.face.length * nip.lower.radius
@@ -150,7 +150,7 @@ def _start(system: _System) -> Array:
     creepage = 0.0 if nip.friction == 0.0 else law.creepage_at(load, share, places.mean)
     middle = approach
     if total is not None:
-        # As if the load were even: what crown and bending take off is added in the mean.
+        # For an even load: the mean of what crown and bending take away is added.
         away = (problem.upper + problem.lower) @ np.full(n, load)
         middle += float(problem.grid.weights @ (away - problem.still)) / problem.face.length
     elif isinstance(nip.normal, Approach):
@@ -159,13 +159,13 @@ def _start(system: _System) -> Array:
 
 
 def _start_at(system: _System, start: Balance) -> Array:
-    """Return the unknowns of a balance, at every other place where it has twice as many."""
+    """Return the unknowns of a balance, at every other place if it has twice as many."""
     every = (start.approach.size - 1) // (system.problem.grid.y.size - 1)
     return np.array([*start.approach[::every], start.middle, start.tilt, start.creepage])
 
 
 def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, CrossSections]:
-    """Return what is left of the equations, their derivatives, and the cross-sections."""
+    """Return the residuals of the equations, their derivatives, and the cross-sections."""
     problem, grid, y = system.problem, system.problem.grid, system.problem.grid.y
     n = y.size
     delta, (middle, tilt, creepage) = unknowns[:n], unknowns[n:]
@@ -240,7 +240,7 @@ def plane_load(problem: FaceProblem, found: Balance) -> Array:
 def torque(
     problem: FaceProblem, law: NipLaw, section: CrossSections, places: Places, roller: str
 ) -> Array:
-    """Return the driving torque on one axle per length, (n,) [N]: forces at the local radius."""
+    """Return the driving torque on one axle per length, (n,) [N], with the local radius."""
     values = law.figure(f"torque_{roller}", section.log_load, section.s, places)
     arm = 1.0 + problem.rise[0 if roller == "upper" else 1]
     return np.asarray(np.where(section.load > 0.0, arm * values, 0.0))

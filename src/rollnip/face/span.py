@@ -1,4 +1,4 @@
-"""The range of a face's table: which loads and slips its lattice holds, and how fine it is."""
+"""The range of a face's table: the loads and slips of its lattice, and how fine it is."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 from rollnip.face.lattice import Lattice
 from rollnip.face.law import NipLaw
 
-PER_E = 1.0  # loads of a table per factor e, at least
-SLIP_STEP, MOST_SLIP = 0.14, 0.91  # between measures of slip, at most; the last one
-_FEWEST = 5  # loads and slips of a table
+PER_E = 1.0  # smallest number of loads in a factor e
+SLIP_STEP, MOST_SLIP = 0.14, 0.91  # largest step between measures of slip; largest measure of slip
+_FEWEST = 5  # smallest number of loads, and of slips, in a table
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Span:
     ----------
     low, high : line loads of the nominal covering [N/mm].
     slips : smallest and largest measure of slip; None without friction.
-    halved : how often the steps between loads, and between slips, are halved at least.
+    halved : smallest number of halvings of the steps between loads, and between slips.
     """
 
     low: float
@@ -33,7 +33,7 @@ class Span:
 
     @property
     def steps(self) -> tuple[int, int]:
-        """Number of times that each step is halved, so that the span holds enough of them."""
+        """Number of halvings of each step, so that the span holds enough loads and slips."""
         loads = max(_needed(log(self.high / self.low) * PER_E), self.halved[0])
         if self.slips is None:
             return loads, 0
@@ -41,7 +41,7 @@ class Span:
 
     @property
     def lattice(self) -> Lattice:
-        """Loads and slips, on a lattice that all tables share."""
+        """Loads and slips, on a lattice that is common to all tables."""
         halved = self.steps
         per_e = PER_E * 2.0 ** halved[0]
         first, last = _around(per_e * log(self.low), per_e * log(self.high), inf)
@@ -56,12 +56,12 @@ class Span:
 
 
 def _needed(steps: float) -> int:
-    """Return how often steps must be halved to become enough for a table."""
+    """Return how often steps must be halved to be enough for a table."""
     return max(0, ceil(log((_FEWEST - 1) / max(steps, 0.1)) / log(2.0) - 1e-9))
 
 
 def _around(low: float, high: float, most: float) -> tuple[int, int]:
-    """Return whole numbers about an interval, at least as many as a table needs, up to +-most."""
+    """Return the integers around an interval, at least as many as a table needs, up to +-most."""
     first, last = floor(low + 1e-6), ceil(high - 1e-6)
     while last - first < _FEWEST - 1:
         first, last = first - 1, last + 1

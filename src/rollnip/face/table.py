@@ -1,4 +1,4 @@
-"""Making the table of a law: which plane nips are solved, kept, and solved between to check it."""
+"""Making the table of a law: the plane nips that are solved and kept for it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Mask = NDArray[np.bool_]
 Progress = Callable[[int, int], None]
 
 CHECKED = ("approach", "nip_width", "peak_pressure")
-"""Figures whose relative error between the nips of a table is looked for."""
+"""Figures whose relative interpolation error between the nips of a table is estimated."""
 _BEYOND = 1.0 - 1e-9
 
 
@@ -41,18 +41,18 @@ def nip_law(
     progress: Progress | None = None,
     executor: Executor | None = None,
 ) -> NipLaw:
-    """Solve the plane nips of a law.
+    """Solve the plane nips of a law, and return it.
 
     Loads beyond one at which a nip has no solution are left out.
 
     Parameters
     ----------
     nip, model : the cross-section; its load and traction are varied.
-    lattice : loads and slips, and which of their nips are asked for.
+    lattice : loads and slips, and which of their nips are needed.
     axes : the coverings.
-    rows : takes what is solved; what it holds is not solved again.
-    progress : called after each solve with how many there are, and of how many.
-    executor : solves nips in other processes; None: here.
+    rows : stores what is solved; what it holds already is not solved again.
+    progress : called after each solve with the number solved and the total number.
+    executor : solves nips in other processes; None: in this one.
 
     Raises
     ------
@@ -84,15 +84,15 @@ def nip_law(
 
 
 def require_solution(nip: Nip, model: Model, place: Place, rows: NipRows) -> None:
-    """Raise ConvergenceError where one nip has no verified solution: then no table has one."""
+    """Raise ConvergenceError where one nip has no verified solution, so that no table has one."""
     Work(model, rows, None, None).row(nip, place)
 
 
 def _solved_up(work: Work, nips: Sequence[Nip], lattice: Lattice) -> Lattice:
-    """Solve the nips of a lattice from light to heavy, and return the part that was asked for.
+    """Solve the nips of a lattice from light to heavy, and return the part that was solved.
 
-    It ends with the first load at which no nip has a solution after a load at which one had:
-    such nips are pressed in too far, and heavier ones more so.
+    It ends at the first load at which no nip has a solution, after a load at which one had. Such
+    nips are pressed in too far, and heavier ones even further.
     """
     has_begun, asked = False, lattice.asked
     for count, load in enumerate(lattice.loads, 1):
@@ -116,7 +116,7 @@ class Work:
         self.done = 0
 
     def solve(self, wanted: Sequence[tuple[Nip, Place]], of: int = 1) -> None:
-        """Solve what is not kept; there are about ``of`` such parts in all."""
+        """Solve the nips that are not kept yet; there are about ``of`` such sets in all."""
         missing = [one for one in wanted if self.rows.get(one[0], self.model, one[1]) is None]
         for (nip, place), row in zip(missing, self._solved(missing), strict=True):
             self.rows.keep(nip, self.model, place, row)
@@ -133,7 +133,7 @@ class Work:
         yield from self.executor.map(_row_of_task, tasks, chunksize=8)
 
     def row(self, nip: Nip, place: Place) -> Row:
-        """Return the figures of a nip; raise ConvergenceError where it has none."""
+        """Return the figures of a nip; raise ConvergenceError where it has no solution."""
         self.solve([(nip, place)])
         found = self.rows.get(nip, self.model, place)
         if not isinstance(found, tuple):
@@ -141,7 +141,7 @@ class Work:
         return found
 
     def value(self, nip: Nip, place: Place, index: int) -> float:
-        """Return one figure of a nip; nan where it has none."""
+        """Return one figure of a nip; nan where it has no solution."""
         found = self.rows.get(nip, self.model, place)
         return found[index] if isinstance(found, tuple) else float("nan")
 
@@ -153,7 +153,7 @@ class Work:
 
 @dataclass(frozen=True, slots=True)
 class _Usable:
-    """The part of a lattice that a table can be made of.
+    """The part of a lattice of which a table can be made.
 
     Attributes
     ----------
@@ -170,10 +170,10 @@ class _Usable:
 
 
 def _usable(work: Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
-    """Return the largest ranges of loads and slips at which nips have solutions.
+    """Return the largest ranges of loads and slips in which nips have solutions.
 
-    A column of slips needs two solved nips, from which the others follow as a line, and a load
-    one solved nip. ConvergenceError where this leaves too few for a table.
+    A column of slips needs two solved nips, from which the others follow by a line; a load needs
+    one. Raise ConvergenceError where this leaves too few for a table.
     """
     faults = np.array(
         [
@@ -206,7 +206,7 @@ def _usable(work: Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
 
 
 def _longest(wanted: NDArray[np.bool_]) -> slice:
-    """Return the longest run of what is wanted."""
+    """Return the longest run of True."""
     best, start = slice(0, 0), 0
     for i, one in enumerate([*wanted.tolist(), False]):
         if not one:
@@ -217,10 +217,10 @@ def _longest(wanted: NDArray[np.bool_]) -> slice:
 
 
 def _continued(values: Array, loads: Array) -> Array:
-    """Return a figure with what is missing filled by lines along the load, (states, m, k).
+    """Return a figure with missing values filled along the load, (states, m, k).
 
-    Through the two nearest nips of the same slip; what goes as a power of the load by logarithms,
-    the others over the load.
+    A line through the two nearest nips of the same slip fills them: in logarithms for positive
+    figures, otherwise of the figure over the load.
     """
     if not np.isnan(values).any() or np.isnan(values).all():
         return values

@@ -1,4 +1,4 @@
-"""Heat: temperatures of rollers, the nip at these temperatures, and thermal runaway."""
+"""Heat: temperatures of the rollers, the nip at these temperatures, and thermal runaway."""
 
 from rollnip.cooling import (
     Coolant,

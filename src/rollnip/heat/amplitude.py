@@ -1,8 +1,9 @@
-"""The size of the steady rise, found from cold before its shape is settled.
+"""The size of the steady temperature rise, found from cold before its distribution is settled.
 
-Moduli may change by powers of ten with the temperature, so the heat of a cold nip says little
-about the steady state. The rise theta of the hottest place is stepped up from cold until the heat
-at that temperature no longer sustains it, A(theta) < theta; then the crossing is found between.
+Moduli may change by powers of ten with temperature, so that the heat of a cold nip says little
+about the steady state. The rise theta of the hottest place is increased from cold in steps until
+the heat at that temperature no longer sustains it, A(theta) < theta; then the crossing in between
+is found.
 """
 
 from __future__ import annotations
@@ -14,30 +15,30 @@ from rollnip.heat.figures import RISE
 from rollnip.heat.state import HeatProblem, ThermalState
 from rollnip.nip import Nip
 
-HOTTEST = 400.0  # K of rise; rubber is destroyed long before
-_FIRST = 0.1  # of the rise that the cold nip would cause
+HOTTEST = 400.0  # largest rise that is tried [K]; rubber is destroyed long before
+_FIRST = 0.1  # first rise, over the one that the heat of the cold nip would cause
 _FACTOR = 2.0  # largest step of the rise
-_NEAR = 0.1  # ln(A/theta) that the iteration of all temperatures begins from
+_NEAR = 0.1  # |ln(A/theta)| from which the iteration of all temperatures can start
 _MOST = 24
-_COARSE = 0.5  # change of ln E* inside a sub-layer
+_COARSE = 0.5  # largest change of ln E* inside a sub-layer
 
 
 class RunawayError(ConvergenceError):
-    """The heat sustains every rise that was tried: no steady state was found."""
+    """No steady state was found: the heat sustains every rise that was tried."""
 
 
 def from_cold(
     thermal: HeatProblem, cold: ThermalState, nip: Nip | None = None, *, above: float = 0.0
 ) -> ThermalState:
-    """Return a state that is near the steady one with the smallest rise.
+    """Return a state close to the steady one with the smallest rise.
 
     Parameters
     ----------
     thermal : the problem.
-    cold : the nip without a rise.
-    nip : the cold nip where it is another than that of the problem, in speed or load.
-    above : rise from which on it is looked for [K]. Just beyond a turning point heat and cooling
-        are nearly even where there is no state.
+    cold : the nip without a temperature rise.
+    nip : the cold nip, where it differs from that of the problem in speed or load.
+    above : rise from which the search starts [K]. Just beyond a turning point heat and cooling are
+        almost balanced at a rise where there is no steady state.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def from_cold(
 
 
 def _between(low: tuple[float, float], high: tuple[float, float]) -> float:
-    """Return the rise where the excess of heat changes its sign, by the secant method."""
+    """Return the rise at which the excess of heat changes sign, by the secant method."""
     (a, fa), (b, fb) = low, high
     share = min(max(fa / (fa - fb), 0.1), 0.9)
     return exp(a + share * (b - a))

@@ -1,8 +1,8 @@
-"""Anderson's acceleration of a fixed-point iteration.
+"""Anderson acceleration of a fixed-point iteration.
 
-From the last residuals f_i = g(x_i) - x_i the combination of smallest norm, sum a_i = 1, and
-x = sum a_i g(x_i) (Anderson 1965, J. ACM 12, 547-560; Walker & Ni 2011, SIAM J. Numer. Anal. 49,
-1715-1735).
+From the last residuals f_i = g(x_i) - x_i it takes the combination of smallest norm, sum a_i = 1,
+and then x = sum a_i g(x_i) (Anderson 1965, J. ACM 12, 547-560; Walker & Ni 2011, SIAM J. Numer.
+Anal. 49, 1715-1735).
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _MEMORY = 5
-_SMALLEST = 1e-10  # singular values of the differences that count, relative
+_SMALLEST = 1e-10  # smallest relative singular value of the differences that is used
 
 
 @dataclass
 class Anderson:
-    """State of an iteration: feed it x and g(x), it returns the next x.
+    """State of an iteration: given x and g(x), `next` returns the next x.
 
     Attributes
     ----------
@@ -51,8 +51,8 @@ class Settled:
     Attributes
     ----------
     value : the last x.
-    left : largest size of g(x) - x there.
-    steps : evaluations of g.
+    left : largest magnitude of g(x) - x there.
+    steps : number of evaluations of g.
     converged : whether ``left`` met the tolerance.
     """
 
@@ -76,10 +76,10 @@ def settle(
     ----------
     image : g.
     start : the first x, (n,).
-    tolerance : largest change that is allowed, as a function of g(x).
-    most : evaluations of g.
-    floor : no x is lower, and none is higher than the highest g(x) so far: beyond, laws of
-        materials end.
+    tolerance : largest allowed change, as a function of g(x).
+    most : largest number of evaluations of g.
+    floor : lower bound of x. The upper bound is the highest g(x) so far; beyond these the laws of
+        materials may not be defined.
     """
     memory, value, left, highest = Anderson(), start, np.inf, start
     for step in range(1, most + 1):

@@ -1,8 +1,9 @@
 """Heat conduction along the radii of both rollers: a linear system for given sources.
 
-(1/r) d(r k dT/dr)/dr + s(r) = rho c dT/dt on finite volumes. The unknowns are the temperatures of
-the cells of the upper and of the lower roller and of both surfaces; a surface stores nothing. What
-flows out of one cell flows into the next, so the powers add up to the last digit.
+(1/r) d(r k dT/dr)/dr + s(r) = rho c dT/dt is discretised by finite volumes. The unknowns are the
+temperatures of the cells of the upper roller, of the lower roller, and of both surfaces; a surface
+stores no heat. What flows out of one cell flows into the next, so that the powers add up to
+rounding.
 """
 
 from __future__ import annotations
@@ -27,8 +28,8 @@ class Sources:
     Attributes
     ----------
     cells : (n,) powers in the cells of the upper, then of the lower roller [mW/mm].
-    lost : (2,) viscous losses of both rollers [mW/mm]; those of a plane are in no cell.
-    over : heat exchange over the nip.
+    lost : (2,) viscous losses of both rollers [mW/mm]; that of a plane is in no cell.
+    over : heat exchange across the nip.
     """
 
     cells: Array
@@ -38,12 +39,12 @@ class Sources:
 
 @dataclass(frozen=True, slots=True)
 class Outflow:
-    """Powers that leave one roller [mW/mm].
+    """Powers that are generated in and leave one roller [mW/mm].
 
     Attributes
     ----------
-    viscous, friction : that arise in it.
-    to_air, to_core, to_nip : that leave it; to_nip: over the nip, into the other surface or a
+    viscous, friction : generated in it.
+    to_air, to_core, to_nip : that leave it; to_nip: across the nip, into the other surface or a
         sheet.
     """
 
@@ -56,7 +57,7 @@ class Outflow:
 
 @dataclass(frozen=True, slots=True)
 class Conduction:
-    """Linear system of both rollers.
+    """Linear system for the temperatures of both rollers.
 
     Attributes
     ----------
@@ -69,12 +70,12 @@ class Conduction:
 
     @property
     def sizes(self) -> tuple[int, int]:
-        """Numbers of cells."""
+        """Numbers of cells of the upper and the lower roller."""
         return self.grids[0].size, self.grids[1].size
 
     @property
     def cells(self) -> int:
-        """Number of all cells; the two surfaces follow them."""
+        """Number of all cells; in arrays, the two surfaces follow them."""
         return sum(self.sizes)
 
     @property
@@ -83,7 +84,7 @@ class Conduction:
         return np.concatenate([grid.capacity for grid in self.grids])
 
     def part(self, values: Array, side: int) -> Array:
-        """Return the cells of the upper (0) or the lower roller (1)."""
+        """Return the values in the cells of the upper (0) or the lower roller (1)."""
         first = 0 if side == 0 else self.sizes[0]
         return values[first : first + self.sizes[side]]
 
@@ -92,11 +93,11 @@ class Conduction:
         return float(values[self.cells + side])
 
     def uniform(self, temperature: float) -> Array:
-        """Return one temperature everywhere, (n+2,)."""
+        """Return the same temperature everywhere, (n+2,)."""
         return np.full(self.cells + 2, temperature)
 
     def system(self, over: Exchange) -> tuple[Array, Array]:
-        """Return the matrix (n+2, n+2) and the right side (n+2,) without sources in cells."""
+        """Return matrix (n+2, n+2) and right-hand side (n+2,), without the sources in cells."""
         n = self.cells
         matrix, right = np.zeros((n + 2, n + 2)), np.zeros(n + 2)
         for side, grid in enumerate(self.grids):
@@ -133,7 +134,7 @@ class Conduction:
             right[at] += to_core * _core_temperature(grid)
 
     def _held_surface(self, side: int) -> float | None:
-        """Return the temperature of a surface that does not depend on the heat; else None."""
+        """Return the temperature of a surface if it is prescribed; otherwise None."""
         grid = self.grids[side]
         if grid.plane is not None:
             return grid.plane
@@ -153,7 +154,7 @@ class Conduction:
         return self.steady(Sources(np.zeros(self.cells), np.zeros(2), cold))
 
     def outflow(self, values: Array, sources: Sources, side: int) -> Outflow:
-        """Return the powers that arise in and leave one roller."""
+        """Return the powers that are generated in and leave one roller."""
         grid, n = self.grids[side], self.cells
         surface = self.surface(values, side)
         into = float(sources.over.matrix[side] @ values[n:] + sources.over.offset[side])
@@ -170,7 +171,7 @@ class Conduction:
         return Outflow(viscous, friction, to_air, to_core, friction - into)
 
     def inner_face(self, values: Array, side: int) -> float:
-        """Return the temperature of the core's boundary [degC]."""
+        """Return the temperature at the boundary with the core [degC]."""
         grid = self.grids[side]
         if grid.size == 0:
             return self.surface(values, side)
@@ -188,13 +189,13 @@ def _film_inside(grid: RadialGrid, core: Coolant) -> float:
 
 
 def _core_conductance(grid: RadialGrid) -> float:
-    """Return the conductance from the innermost cell to the core's boundary [mW/(mm K)]."""
+    """Return the conductance from the innermost cell to the core [mW/(mm K)]."""
     core = grid.cooling.core
     if isinstance(core, Insulated):
         return 0.0
     wall = 1.0 / float(grid.conductances[-1]) if grid.size else 0.0
     if isinstance(core, Held):
-        return 1.0 / wall if wall else 0.0  # a bare surface that is held is an equation of its own
+        return 1.0 / wall if wall else 0.0  # a bare surface held at a temperature is an equation
     return 1.0 / (wall + 1.0 / _film_inside(grid, core))
 
 

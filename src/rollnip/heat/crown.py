@@ -26,8 +26,8 @@ def thermal_crown(
 ) -> CrownTable:
     """Return the growth of the diameter along the face, as a crown for a shaft.
 
-    Every cross-section has its own steady state. The heat in it is that of the solved nip, the
-    viscous part and the friction each in proportion to the losses there. No heat runs along the
+    Every cross-section has its own steady state. Its heat is that of the solved nip, with the
+    viscous part and the friction part each scaled by the local loss. No heat is conducted along the
     axis, and the moduli are those of the solved nip.
 
     Parameters
@@ -36,12 +36,12 @@ def thermal_crown(
     y : (n,) increasing places along the face [mm].
     viscous, friction : (n,) losses there [mW/mm], such as ``FaceSolution.viscous_loss`` and
         ``friction_loss``.
-    roller : whose crown it is.
+    roller : the roller whose crown it is.
 
     Raises
     ------
     InvalidInputError
-        where lengths differ, a loss is negative, or the roller is neither.
+        where lengths differ, a loss is negative, or ``roller`` is neither "upper" nor "lower".
     """
     if roller not in SIDES:
         raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')

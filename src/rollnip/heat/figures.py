@@ -1,7 +1,7 @@
-"""The registry of the figures of heat: of each roller, of the balance, and of the nip in it.
+"""The registry of the figures of heat: of each roller, of the balance, and of the nip.
 
-JSON, tables of sweeps, summaries and the web page read it. A figure is added here and as an
-attribute of `RollerHeat` or `HeatSolution`.
+JSON, tables of sweeps, summaries and the web page all read it. To add a figure, add it here and as
+an attribute of `RollerHeat` or `HeatSolution`.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ NIP_FIGURES: Mapping[str, Figure] = {
         *("creepage", "rolling_resistance"),
     )
 }
-"""The figures of the nip that are given cold and warm, by key."""
+"""The figures of the nip that are shown both cold and warm, by key."""
 
 COURSES: Mapping[str, Figure] = by_key(
     _F("r", "radius", "length", "Distance from the axis."),
@@ -118,7 +118,7 @@ COURSES: Mapping[str, Figure] = by_key(
     _F("power", "heat of the nip", "heat per length", "All heat that arises."),
     _F("rise", "highest rise", "temperature difference", "Over the temperatures without heat."),
 )
-"""Temperatures over the radius, a warm-up over time and steady states over a parameter, by key."""
+"""Temperatures over the radius, warm-up over time, and steady states over a parameter, by key."""
 
 WARM_UP_FIGURES: Mapping[str, Figure] = by_key(
     _F(
@@ -143,7 +143,7 @@ PARAMETERS: Mapping[str, Figure] = by_key(
     _F("speed", "speed", "speed", "Circumferential speed of the rollers.", symbol="V"),
     FIGURES["load"],
 )
-"""What steady states are followed over, by the name of the parameter."""
+"""Parameters over which steady states are followed, by name."""
 
 TEMPERATURE, RISE = ROLLER_FIGURES["hot_spot"], COURSES["rise"]
-"""A temperature and a difference of temperatures, in messages."""
+"""A temperature and a temperature difference, for messages."""

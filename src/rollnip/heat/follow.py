@@ -1,10 +1,10 @@
-"""The branch of steady states from cold, with the speed or the load as its parameter.
+"""The branch of steady states from cold, over speed or load.
 
-A branch is a curve of the logarithms of parameter and rise (of the hottest place). Of the next
-point the one of them is prescribed that changes faster along the curve, and the other is found
-(local parametrisation: Rheinboldt & Burkardt 1983, ACM Trans. Math. Softw. 9, 215-235). So it goes
-on through a turning point, where the parameter has an extreme value: the thermal runaway. There a
-little more speed or load has no steady state nearby.
+A branch is a curve in the plane of the logarithms of the parameter and of the rise of the hottest
+place. For each next point, whichever of the two changes faster along the curve is prescribed, and
+the other is found (local parametrisation: Rheinboldt & Burkardt 1983, ACM Trans. Math. Softw. 9,
+215-235). The branch can thus be followed through a turning point, where the parameter has an
+extreme value: thermal runaway. With slightly more speed or load there is no steady state nearby.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from rollnip.heat.state import HeatProblem, Parameter, ThermalState
 
 Array = NDArray[np.float64]
 
-_ALLOWED = 0.25  # change of ln E* inside a sub-layer
-_TOLERANCE = 1e-3  # of the rise
-_MOST = 15  # nips at one point
+_ALLOWED = 0.25  # largest change of ln E* inside a sub-layer
+_TOLERANCE = 1e-3  # relative tolerance of the rise
+_MOST = 15  # most nips solved for one point
 _STEP = 0.45  # length of a step in the plane of the logarithms
 _SMALLEST = 0.03
 _POINTS = 40
-_REFINED = 2  # parabolas through a turning point
+_REFINED = 2  # number of parabolas fitted through a turning point
 _EXPONENT = {"speed": 1.0, "load": 1.5}
-"""How the heat roughly goes with the parameter; the iteration finds out."""
+"""Approximate exponent of the heat as a power of the parameter, which starts the iteration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +45,12 @@ class BranchPoint:
     Attributes
     ----------
     value : of the parameter [mm/s or N/mm].
-    rise : of the hottest place over the temperatures without heat [K].
+    rise : of the hottest place, over its temperature without heat [K].
     hot_spot : highest temperature of both rollers [degC].
-    bond_upper, bond_lower : temperatures of the bonds [degC]; None without.
+    bond_upper, bond_lower : temperatures of the bonds [degC]; None where there is none.
     power : heat of the nip [W/m].
-    stable : whether a disturbance dies out: the parameter rises along the branch.
-    state : the nip there.
+    stable : whether a disturbance dies out; it does where the parameter rises along the branch.
+    state : the nip in this state.
     """
 
     value: float
@@ -70,13 +70,13 @@ class Branch:
     Attributes
     ----------
     parameter, unit : "speed" [mm/s] or "load" [N/mm].
-    points : along the branch, from cold; behind the turning point over states that are not
-        stable, and from a second one on over hot states.
-    turning : the first point with the largest parameter nearby, thermal runaway; None: none was
-        met.
+    points : along the branch, from cold; beyond the turning point they are unstable states, and
+        from a second turning point on hot states.
+    turning : the point with the largest parameter at the first turning point, thermal runaway; None
+        where none was found.
     reached : whether the wanted end of the parameter was reached without a turning point.
     status : a sentence about where the branch ends.
-    solves : nips that were solved.
+    solves : number of nips that were solved.
     """
 
     parameter: Parameter
@@ -88,7 +88,7 @@ class Branch:
     solves: int
 
     def at(self, value: float) -> ThermalState | None:
-        """Return the coolest state that is near a parameter, or None where none is."""
+        """Return the coolest state close to a value of the parameter; None where there is none."""
         for low, high in zip(self.points[:-1], self.points[1:], strict=True):
             if low.value <= value * (1.0 + _TOLERANCE) and high.value >= value * (1.0 - _TOLERANCE):
                 near = abs(log(high.value / value)) < abs(log(low.value / value))
@@ -115,16 +115,16 @@ def follow(
     ----------
     thermal : the problem.
     parameter : "speed" or "load".
-    low, high : where it begins and ends [mm/s or N/mm].
-    largest_rise : at which the branch ends [K].
-    past_turning : whether it goes on behind the first turning point.
+    low, high : first and last value [mm/s or N/mm].
+    largest_rise : rise at which the branch ends [K].
+    past_turning : whether it continues beyond the first turning point.
 
     Raises
     ------
     InvalidInputError
         where the limits are not in order, or the parameter is unknown.
     ConvergenceError
-        where not even the first state was found; begin lower.
+        where not even the first state was found; start lower.
     """
     if parameter not in PARAMETERS:
         raise InvalidInputError(f'`parameter` must be "speed" or "load", got {parameter!r}.')
@@ -157,7 +157,7 @@ def follow(
 def _end(
     found: Sequence[_BranchState], low: float, high: float, largest_rise: float, over: Figure
 ) -> str:
-    """Return why a branch need not go on; "" where it goes on."""
+    """Return why a branch ends; "" where it continues."""
     last = found[-1]
     if last.value >= high * (1.0 - 1e-9):
         turned = any(b.value < a.value for a, b in pairwise(found))
@@ -165,7 +165,7 @@ def _end(
     if last.rise > largest_rise:
         return f"It ends at a rise of {RISE.text(last.rise)}."
     if last.value < low * (1.0 - 1e-9):
-        return f"It comes back below {over.text(low)} on states that are not stable."
+        return f"It returns below {over.text(low)} on states that are not stable."
     return ""
 
 
@@ -179,13 +179,13 @@ class _BranchState:
 
 
 class _Walk:
-    """Finds one state of a branch after the other."""
+    """Finds the states of a branch, one after the other."""
 
     def __init__(self, thermal: HeatProblem, parameter: Parameter) -> None:
         self.thermal, self.parameter = thermal, parameter
 
     def first(self, value: float) -> _BranchState:
-        """Return the steady state from cold at a parameter that is near the given one."""
+        """Return the steady state from cold, at a parameter close to the given one."""
         thermal = self.thermal
         nip = thermal.with_parameter(self.parameter, value)
         cold = thermal.conduction.uniform(thermal.heat.ambient)
@@ -198,7 +198,7 @@ class _Walk:
         return self.at_rise(_BranchState(value, near.hottest, near), near.hottest, value)
 
     def next(self, found: Sequence[_BranchState], step: float, high: float) -> _BranchState:
-        """Return the state a step further along the branch, at most at the end of the parameter."""
+        """Return the state one step further along the branch, at most at the end ``high``."""
         last = found[-1]
         along, up = 1.0, 1.0 / _EXPONENT[self.parameter]
         if len(found) > 1:
@@ -212,7 +212,7 @@ class _Walk:
         return self.at_value(last, value, last.rise * (value / last.value) ** (up / along))
 
     def at_value(self, near: _BranchState, value: float, guess: float) -> _BranchState:
-        """Return the state at a parameter, from one near it and a guess of its rise [K]."""
+        """Return the state at a parameter, from a nearby state and a guess of the rise [K]."""
         thermal = self.thermal
         nip = thermal.with_parameter(self.parameter, value)
         temperatures = near.state.base + guess * near.state.rise / near.state.hottest
@@ -236,7 +236,7 @@ class _Walk:
         return _BranchState(value, states[-1].hottest, states[-1])
 
     def at_rise(self, near: _BranchState, rise: float, guess: float) -> _BranchState:
-        """Return the state of a given rise [K], from one that is near it."""
+        """Return the state with a given rise [K], from a nearby state."""
         thermal, exponent = self.thermal, _EXPONENT[self.parameter]
         shape = near.state.rise / near.state.hottest
         temperatures = near.state.base + rise * shape
@@ -291,7 +291,7 @@ class _Walk:
         )
 
     def _turning(self, three: Sequence[_BranchState]) -> _BranchState | None:
-        """Return the state at the top of the parabola through three; None where it is one."""
+        """Return the state at the top of the parabola through three states; None without one."""
         x = np.log([one.rise for one in three])
         y = np.log([one.value for one in three])
         fit = np.polyfit(x - x[1], y, 2)
@@ -324,7 +324,7 @@ class _Walk:
 
 
 def _first_peak(found: Sequence[_BranchState]) -> int | None:
-    """Return the first inner point whose parameter is larger than those of its neighbours."""
+    """Return the first inner point whose parameter is larger than that of its neighbours."""
     for i in range(1, len(found) - 1):
         if found[i].value > found[i - 1].value and found[i].value >= found[i + 1].value:
             return i

@@ -1,7 +1,7 @@
-"""Cells of a roller from its surface inwards: where heat is made, stored and conducted.
+"""Cells of a roller from its surface inwards, in which heat is generated, stored and conducted.
 
-Heat runs along the radius alone. Between the middles of neighbouring cells the conductance per
-length of roller is 2 pi k/ln(r1/r2), exact where nothing is made in between.
+Heat flows along the radius only. Between the middles of neighbouring cells the conductance per
+length of roller is 2 pi k/ln(r1/r2), which is exact where no heat is generated in between.
 """
 
 from __future__ import annotations
@@ -23,22 +23,23 @@ IntArray = NDArray[np.intp]
 _LAYER_CELLS = 48
 _CORE_CELLS = 96
 _CORE_GROWTH = 4.0  # logarithm of the largest over the smallest cell of a half-space core
-SHELL = -1  # the layer number of the cells of a shell
+SHELL = -1  # layer number of the cells of a shell
 
 
 @dataclass(frozen=True)
 class RadialGrid:
-    """One roller as heat sees it.
+    """One roller as a thermal conductor.
 
     Attributes
     ----------
-    roller, cooling : what it is made from.
+    roller, cooling : the roller, and how it is cooled.
     depth : (n+1,) of the faces of the cells, from 0 at the surface [mm].
-    layer : (n,) index of the layer; the number of layers: a half-space core; SHELL: the shell.
+    layer : (n,) index of the layer; the number of layers stands for a half-space core, SHELL for
+        the shell.
     conductivity : (n,) [mW/(mm K)].
     capacity : (n,) heat capacity of each cell per length [mJ/(mm K)].
     effusivity : of the surface [mW s^0.5/(mm2 K)].
-    plane : temperature with which a plane arrives [degC]; None for a roller.
+    plane : temperature at which a plane arrives [degC]; None for a roller.
     """
 
     roller: Roller
@@ -72,12 +73,12 @@ class RadialGrid:
 
     @property
     def covering(self) -> NDArray[np.bool_]:
-        """Cells that deform: all but the shell, (n,)."""
+        """Whether a cell deforms, (n,): all cells but those of the shell."""
         return np.asarray(self.layer != SHELL)
 
     @property
     def conductances(self) -> Array:
-        """From the surface to the first middle, between middles, to the inside, (n+1,)."""
+        """From the surface to the first middle, between middles, and to the inside, (n+1,)."""
         outer, inner = self.radii[:-1], self.radii[1:]
         middles = self.middles
         above = np.log(outer / middles) / self.conductivity
@@ -95,7 +96,7 @@ class RadialGrid:
 
     @property
     def inner_radius(self) -> float:
-        """Radius where the core's boundary stands [mm]."""
+        """Radius of the boundary with the core [mm]."""
         return float(self.radii[-1])
 
 
@@ -106,7 +107,7 @@ def roller_grid(name: str, roller: Roller, cooling: Cooling, ambient: float) -> 
     ----------
     name : "upper" or "lower", for messages.
     roller, cooling : of that side.
-    ambient : temperature of the air [degC], with which a plane arrives unless it is held.
+    ambient : temperature of the air [degC], at which a plane arrives unless another one is given.
 
     Raises
     ------
@@ -182,7 +183,7 @@ def _check_inside(name: str, roller: Roller, cooling: Cooling) -> None:
 
 
 def _top(name: str, roller: Roller, cooling: Cooling) -> Thermal:
-    """Return the properties of the surface; a bare rigid core without a shell is steel."""
+    """Return the thermal properties of the surface; a bare rigid core without a shell is steel."""
     if roller.materials:
         return _thermal(name, roller, 0)
     return TYPICAL["steel"] if cooling.shell is None else cooling.shell.thermal

@@ -1,14 +1,15 @@
 """Growth of a covering that warms up: plane strain, bonded to its core, free at its surface.
 
-With u the radial displacement and S = r s_rr, in a layer of the free expansion e = alpha dT,
+With u the radial displacement and S = r s_rr, in a layer with the free expansion e = alpha dT,
 
     r u' = a S - b u + c e r,     r S' = b S + g (u - (1 + nu) e r),
 
-a = (1-2nu)(1+nu)/(E(1-nu)), b = nu/(1-nu), g = E/((1+nu)(1-nu)), c = (1+nu)/(1-nu): the ring
-equations of the theory for the harmonic 0 with e added along all three directions. (b^2 + a g = 1,
-so over a length L in log r the matrix of the free part is cosh L + M sinh L; a layer that
-expands without hindrance has u = (1 + nu) e r, S = 0.) A thin covering grows by (1+nu)/(1-nu)
-alpha dT of its thickness, 3 alpha dT where it is incompressible, for it can only grow outwards.
+a = (1-2nu)(1+nu)/(E(1-nu)), b = nu/(1-nu), g = E/((1+nu)(1-nu)), c = (1+nu)/(1-nu). These are the
+ring equations of the theory for the harmonic 0, with e added along all three directions. Since b^2
++ a g = 1, the matrix of the homogeneous solution over a length L in log r is cosh L + M sinh L; a
+layer that expands freely has u = (1 + nu) e r, S = 0. A thin covering grows by (1+nu)/(1-nu) alpha
+dT of its thickness, which is 3 alpha dT where it is incompressible, because it can only grow
+outwards.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from rollnip.heat.grid import SHELL, RadialGrid
 
 Array = NDArray[np.float64]
 
-_PINHOLE = 1e-3  # of the innermost cell: radius of the hole in a solid roller
+_PINHOLE = 1e-3  # radius of the hole assumed in a solid roller, over that of the innermost cell
 
 
 def radial_growth(grid: RadialGrid, temperature: Array, reference: float) -> float:
@@ -32,7 +33,7 @@ def radial_growth(grid: RadialGrid, temperature: Array, reference: float) -> flo
     ----------
     grid : of the roller.
     temperature : (n,) of its cells [degC].
-    reference : at which the radius is as given [degC].
+    reference : temperature at which the radius is the given one [degC].
 
     Returns
     -------
@@ -59,7 +60,7 @@ def radial_growth(grid: RadialGrid, temperature: Array, reference: float) -> flo
 
 
 def _across(grid: RadialGrid, cell: int, inner: float, warmer: float, state: Array) -> Array:
-    """Carry (u, S) and its change with the unknown, (2, 2), from a cell's inside to its outside."""
+    """Return (u, S) and its derivative by the unknown, (2, 2), carried outwards over a cell."""
     material = grid.roller.materials[grid.layer[cell]]
     modulus, nu = material.relaxed_modulus, material.poisson
     assert material.thermal is not None
@@ -81,7 +82,7 @@ def _across(grid: RadialGrid, cell: int, inner: float, warmer: float, state: Arr
 
 
 def core_growth(grid: RadialGrid, temperature: Array, reference: float) -> float:
-    """Return how much the outside of the shell grows [mm]; 0 without a shell."""
+    """Return how much the outer radius of the shell grows [mm]; 0 without a shell."""
     shell = grid.cooling.shell
     inside = np.flatnonzero(grid.layer == SHELL)
     if shell is None or inside.size == 0:

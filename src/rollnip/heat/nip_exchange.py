@@ -1,14 +1,15 @@
 """Heat that passes between the rollers while a point of their surfaces is in the nip.
 
-Two bodies of temperatures T_u and T_l touch perfectly for the dwell time t: the flux is
-(T_u - T_l) e/sqrt(pi t) with 1/e = 1/e_u + 1/e_l and effusivities e_i = sqrt(k rho c), so a pass
-hands over (T_u - T_l) 2 e sqrt(t/pi) per area (Carslaw & Jaeger 1959, Conduction of Heat in
-Solids, section 2.7: half-spaces, for heat goes sqrt(a t), some hundredths of a mm, deep).
+Two bodies with temperatures T_u and T_l are in perfect contact for the dwell time t. The flux is
+(T_u - T_l) e/sqrt(pi t) with 1/e = 1/e_u + 1/e_l and the effusivities e_i = sqrt(k rho c), so that
+one pass transfers (T_u - T_l) 2 e sqrt(t/pi) per area (Carslaw & Jaeger 1959, Conduction of Heat in
+Solids, section 2.7; half-spaces, because heat penetrates by sqrt(a t), some hundredths of a mm).
 
-What a pass leaves in the surface is not gone when the next one comes. Of heat Q per area in each
-turn of the time t_i the surface keeps, beside what a steady flux Q/t_i leaves there,
-sum_n Q/(e_i sqrt(pi n t_i)) - int dn Q/(e_i sqrt(pi n t_i)) = zeta(1/2) Q/(e_i sqrt(pi t_i)),
-zeta(1/2) = -1.4604: just before a pass it is closer to the inside than the mean over a turn is.
+Heat that a pass leaves in the surface is still there at the next pass. With the heat Q per area in
+each turn of the time t_i, the surface keeps, besides what a steady flux Q/t_i leaves there, sum_n
+Q/(e_i sqrt(pi n t_i)) - int dn Q/(e_i sqrt(pi n t_i)) = zeta(1/2) Q/(e_i sqrt(pi t_i)), zeta(1/2) =
+-1.4604: just before a pass the surface is closer to the inside temperature than its mean over a
+turn is.
 """
 
 from __future__ import annotations
@@ -29,13 +30,13 @@ _ZETA = -1.4603545088095868  # Riemann's zeta at 1/2
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """Power into both surfaces over the nip: ``matrix`` @ (T_u, T_l) + ``offset``.
+    """Power into both surfaces across the nip: ``matrix`` @ (T_u, T_l) + ``offset``.
 
     Attributes
     ----------
     matrix : (2, 2) [mW/(mm K)].
-    offset : (2,) friction heat and what a sheet brings along [mW/mm].
-    friction : (2,) friction heat alone, which ``offset`` holds [mW/mm].
+    offset : (2,) friction heat, and heat that a sheet brings along [mW/mm].
+    friction : (2,) friction heat alone, which is part of ``offset`` [mW/mm].
     to_sheet : friction heat that goes straight into a sheet [mW/mm].
     """
 
@@ -53,15 +54,15 @@ def exchange(
     friction: float | tuple[float, float],
     sheet: PassingSheet | None = None,
 ) -> Exchange:
-    """Return the heat exchange over the nip.
+    """Return the heat exchange across the nip.
 
     Parameters
     ----------
     effusivity : of both surfaces [mW s^0.5/(mm2 K)].
     width, speed : nip width [mm] and rolling speed [mm/s].
     radii : of both rollers; inf for a plane [mm].
-    friction : power that slip turns into heat [mW/mm]; with a sheet half of it on either side, or
-        as the two numbers of a pair say.
+    friction : power that slip turns into heat [mW/mm]. With a sheet one number is divided equally
+        between both sides; a pair gives the upper and the lower side.
     sheet : what runs between the rollers, with its thickness; None: they touch.
     """
     dwell = width / speed
@@ -86,7 +87,7 @@ def exchange(
 def _pass(
     effusivity: tuple[float, float], dwell: float, sheet: PassingSheet | None
 ) -> tuple[Array, Array]:
-    """Return heat per area and pass into both surfaces: (2, 2) by temperature, and (2,)."""
+    """Return the heat per area and pass into both surfaces: (2, 2) per temperature, and (2,)."""
     upper, lower = effusivity
     if sheet is None:
         both = upper * lower / (upper + lower) * 2.0 * sqrt(dwell / pi)
@@ -101,11 +102,11 @@ def _pass(
 def _through_sheet(
     effusivity: tuple[float, float], dwell: float, sheet: PassingSheet, body: int, warm: int
 ) -> float:
-    """Return the heat per area that a body gives off, where one of them is 1 K over the sheet.
+    """Return the heat per area that a body gives off, where one body is 1 K warmer than the sheet.
 
-    Half-space, slab of the sheet's thickness, half-space: with x = h sqrt(s rho c/k) the slab
-    takes e sqrt(s) (coth x, -1/sinh x) times the temperatures of its faces, and a half-space of
-    1 K gives e sqrt(s) (1/s - Theta).
+    Half-space, slab of the sheet's thickness, half-space: with x = h sqrt(s rho c/k) the slab takes
+    e sqrt(s) (coth x, -1/sinh x) times the temperatures of its faces, and a half-space at 1 K gives
+    e sqrt(s) (1/s - Theta).
     """
     assert sheet.thickness is not None
     thermal, (upper, lower), thickness = sheet.thermal, effusivity, sheet.thickness
@@ -131,10 +132,11 @@ def _through_sheet(
 def _shares(
     effusivity: tuple[float, float], sheet: PassingSheet | None, made: Array
 ) -> tuple[Array, float]:
-    """Return the friction heat that enters both surfaces, (2,), and what a sheet gets of it.
+    """Return the friction heat that enters both surfaces, (2,), and that which enters a sheet.
 
-    Two surfaces that rub have one temperature where they touch, so each takes a share as its
-    effusivity; ``made``: what arises on the upper and the lower side of a sheet.
+    Two surfaces that slip on each other have one temperature where they touch, so that each takes a
+    share in proportion to its effusivity. ``made`` is the heat on the upper and lower side of a
+    sheet.
     """
     upper, lower = effusivity
     if sheet is None:

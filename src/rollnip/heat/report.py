@@ -1,4 +1,4 @@
-"""Heat as a tree for JSON and as lines of text."""
+"""Heat as a tree for JSON, and as lines of text."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def heat_scalar(solution: HeatSolution, key: str) -> float | None:
 
 
 def heat_dict(solution: HeatSolution) -> dict[str, Any]:
-    """Return the key "heat" of a result: both rollers, balance, and the nip cold and warm."""
+    """Return the value of the key "heat" of a result: both rollers, balance, nip cold and warm."""
     return {
         "converged": solution.converged,
         "status": solution.status,
@@ -91,7 +91,7 @@ def heat_parts(solution: HeatSolution) -> dict[str, Any]:
 
 
 def warm_up_dict(course: WarmUp) -> dict[str, Any]:
-    """Return the key "warm_up": temperatures over time."""
+    """Return the value of the key "warm_up": temperatures over time."""
     tree: dict[str, Any] = {
         "converged": course.converged,
         "status": course.status,
@@ -111,7 +111,7 @@ def warm_up_dict(course: WarmUp) -> dict[str, Any]:
 
 
 def branch_dict(branch: Branch) -> dict[str, Any]:
-    """Return the key "branch": steady states over speed or load, and where the nip runs away."""
+    """Return the value of the key "branch": steady states over speed or load, and runaway."""
     return {
         "parameter": branch.parameter,
         "unit": branch.unit,
@@ -129,7 +129,7 @@ def _point(point: BranchPoint) -> dict[str, Any]:
 
 
 def heat_lines(solution: HeatSolution, units: Units = "metric") -> Iterator[str]:
-    """Yield the summary of a nip in thermal balance, line by line, its title first."""
+    """Yield the summary of a nip in thermal balance line by line, its title first."""
     yield solution.nip.title or "Heat"
     yield _verdict(solution)
     yield from _figures(solution, units)
@@ -142,7 +142,7 @@ def balance_lines(
 
     Parameters
     ----------
-    said : warnings that were shown before, and are not shown again.
+    said : warnings that were shown before, and are left out.
     units : metric or US ones.
     """
     yield f"Heat ({_verdict(solution)})"
@@ -172,7 +172,7 @@ def _figures(solution: HeatSolution, units: Units, said: Collection[str] = ()) -
 
 
 def _row(figure: Figure, results: list[Any], units: Units) -> str:
-    """Return the line of a figure of some results, in the unit shown."""
+    """Return the line of a figure of several results, in the unit shown."""
     figure = figure.in_units(units)
     values = [figure.value(one) for one in results]
     shown = [None if one is None else figure.converted(one) for one in values]
@@ -207,7 +207,7 @@ def warm_up_lines(course: WarmUp, units: Units = "metric") -> Iterator[str]:
 
 
 def branch_lines(branch: Branch, value: float | None, units: Units = "metric") -> Iterator[str]:
-    """Yield the summary of a branch, line by line; ``value``: that of the case."""
+    """Yield the summary of a branch line by line; ``value`` is the parameter of the case."""
     yield f"\nSteady states by {branch.parameter}: {branch.status}"
     over, temperature, heat = (
         one.in_units(units)
@@ -230,5 +230,5 @@ def branch_lines(branch: Branch, value: float | None, units: Units = "metric") -
     )
     margin = None if value is None else branch.margin(value)
     if margin is not None and value is not None:
-        rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond that"
+        rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond it"
         yield f"  the case has {over.text(value)}{rest}"

@@ -1,4 +1,4 @@
-"""Reservations on a warm nip, said of the layers that the user gave, not of sub-layers."""
+"""Reservations on a warm nip, for the layers that the user gave instead of their sub-layers."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ def of_whole_layers(
 ) -> tuple[Reservation, ...]:
     """Return the reservations of a warm nip with the numbers of the layers that the user gave.
 
-    A sub-layer is no material of the user's. Of several in one layer only the one with the largest
-    excess is kept. That a top layer is thin is said of the whole one, as for the cold nip.
+    A sub-layer is not one of the user's materials. Of several reservations in one layer only the
+    one with the largest excess is kept. A thin top layer is reported for the whole layer, as for
+    the cold nip.
 
     Parameters
     ----------
@@ -46,7 +47,7 @@ def _is_of_divided_top(one: Reservation, cut: Divided) -> bool:
 
 
 def _layer(cut: Divided, side: str, material: int) -> int:
-    """Return the layer, counted from 1, of a material of a warm roller."""
+    """Return the layer, counted from 1, to which a material of a warm roller belongs."""
     bounds = cut.of(SIDES.index(side))
     layers = [index for index, part in enumerate(bounds, start=1) for _ in part[1:]]
-    return layers[material - 1] if layers else material  # none on a plane: its heat is carried away
+    return layers[material - 1] if layers else material  # a plane has no cells to divide

@@ -30,16 +30,16 @@ class RollerHeat(Sealed):
 
     Attributes
     ----------
-    r : (n,) radii from the inside to the surface [mm]; the surface alone where nothing else is.
-    temperature : (n,) there.
+    r : (n,) radii from the inside to the surface [mm]; only the surface where there are no cells.
+    temperature : (n,) at these radii.
     surface_temperature : mean over a turn.
-    bond_temperature : at the bond of the coverings to a rigid core; None without.
-    hot_spot, hot_spot_depth : highest temperature of the coverings down to their bond, and how
-        deep it is [mm]; of a roller without coverings that of all of it.
-    power : all heat that arises in it.
-    viscous, friction : its parts.
-    to_air, to_core, to_nip : where it goes; to_nip: over the nip, into the other roller or a
-        sheet; negative where heat comes in. A plane runs on with what is left.
+    bond_temperature : at the bond of the coverings to a rigid core; None without a bond.
+    hot_spot, hot_spot_depth : highest temperature of the coverings down to their bond, and its
+        depth [mm]; for a roller without coverings, of the whole roller.
+    power : all heat generated in it.
+    viscous, friction : the two parts of ``power``.
+    to_air, to_core, to_nip : where it goes; to_nip: across the nip, into the other roller or a
+        sheet; negative where heat comes in. A plane carries away the rest.
     growth : of the radius [mm].
     """
 
@@ -75,7 +75,7 @@ def profile(conduction: Conduction, values: Array, side: int) -> tuple[Array, Ar
 
 
 def bond_temperature(conduction: Conduction, values: Array, side: int) -> float | None:
-    """Return the temperature where coverings are bonded to a rigid core; None without."""
+    """Return the temperature at the bond of coverings to a rigid core; None without a bond."""
     grid = conduction.grids[side]
     if grid.size == 0 or not grid.roller.layers or grid.roller.core is not None:
         return None
@@ -88,7 +88,7 @@ def bond_temperature(conduction: Conduction, values: Array, side: int) -> float 
 
 
 def _halves(grid: RadialGrid, cell: int) -> tuple[float, float]:
-    """Return the conductances from the lower face of a cell to its middle and to the next one."""
+    """Return the conductances from the lower face of a cell to its middle and the next middle."""
     face = grid.radii[cell + 1]
     above = grid.conductivity[cell] / np.log(grid.middles[cell] / face)
     below = grid.conductivity[cell + 1] / np.log(face / grid.middles[cell + 1])
@@ -102,14 +102,14 @@ class HeatSolution:
     Attributes
     ----------
     nip, heat, model : the problem.
-    converged : whether the temperatures settled, and the warm nip was verified.
+    converged : whether the temperatures settled and the warm nip was verified.
     status : a sentence that says so, or what is wrong.
     reservations : on the warm nip, and on materials that do not follow the temperature.
     error : "temperature" [K]: what the iteration and the sub-layers leave.
     cold : the nip with everything at the ambient temperature.
     stable : whether a small disturbance dies out; None where no steady state was found.
-    solves : nips that were solved.
-    sublayers : into which the layers of both rollers were divided.
+    solves : number of nips that were solved.
+    sublayers : number of sub-layers into which the layers of both rollers were divided.
     """
 
     nip: Nip
@@ -142,7 +142,7 @@ class HeatSolution:
 
     @property
     def warm(self) -> Solution:
-        """The nip of the warm rollers."""
+        """The solution of the nip between the warm rollers."""
         return self.state.solution
 
     @cached_property
@@ -161,23 +161,23 @@ class HeatSolution:
 
     @property
     def power(self) -> float:
-        """All heat of the nip, viscous and by friction [W/m]."""
+        """All heat of the nip, viscous and frictional [W/m]."""
         return (self.warm.dissipation_viscous or 0.0) + (self.warm.dissipation_friction or 0.0)
 
     @property
     def to_sheet(self) -> float:
-        """Heat that a sheet takes along [W/m]; 0 without a sheet."""
+        """Heat that a sheet carries away [W/m]; 0 without a sheet."""
         if self.heat.sheet is None:
             return 0.0
         return self.upper.to_nip + self.lower.to_nip + self.state.sources.over.to_sheet
 
     @property
     def balance(self) -> float:
-        """Heat that arises less heat that leaves, over all heat; 0 is balanced."""
+        """Heat generated minus heat that leaves, over all heat; 0 where it is balanced."""
         out = self.to_sheet
         planes = [grid.plane is not None for grid in self.conduction.grids]
         for roller, plane in zip((self.upper, self.lower), planes, strict=True):
-            # A plane takes along all its heat, and what enters it over the nip.
+            # A plane carries away all its heat, and what enters it across the nip.
             out += roller.power - roller.to_nip if plane else roller.to_air + roller.to_core
         return (self.power - out) / self.power if self.power > 0.0 else 0.0
 
@@ -207,7 +207,7 @@ class HeatSolution:
 def _hottest(
     grid: RadialGrid, r: Array, temperature: Array, bond: float | None
 ) -> tuple[float, float]:
-    """Return depth and temperature of the hottest place of the coverings, the bond if it is one."""
+    """Return depth and temperature of the hottest place of the coverings, their bond included."""
     if r.size == 1:
         return 0.0, float(temperature[0])
     depth = r[-1] - r

@@ -1,4 +1,4 @@
-"""A nip at given temperatures: its solution, the heat it makes, and where that leads."""
+"""A nip at given temperatures: its solution, its heat, and the temperatures this leads to."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class ThermalState:
 
     Attributes
     ----------
-    temperatures : (n+2,) that it was solved at [degC].
+    temperatures : (n+2,) at which it was solved [degC].
     solution : of the warm nip.
     sources : its heat.
     growth : of both rollers.
-    new : (n+2,) steady temperatures that this heat leads to [degC].
-    base : (n+2,) those without the heat of the nip [degC].
+    new : (n+2,) steady temperatures to which this heat leads [degC].
+    base : (n+2,) steady temperatures without the heat of the nip [degC].
     """
 
     temperatures: Array
@@ -59,18 +59,18 @@ class ThermalState:
 
 
 class HeatProblem:
-    """A nip with its heat balance; counts the nips that it solves.
+    """A nip with its heat balance; it counts the nips that it solves.
 
     Parameters
     ----------
     nip, heat, model : the problem.
-    cache : influence functions of solves before.
+    cache : influence functions of earlier solves.
 
     Raises
     ------
     InvalidInputError
         where the speed is missing, a material has no thermal properties, no heat can leave, or a
-        part of the problem has no heat balance.
+        part of the problem does not go with a heat balance.
     """
 
     def __init__(
@@ -89,7 +89,7 @@ class HeatProblem:
 
     @property
     def follows(self) -> bool:
-        """Return whether anything of the nip changes with the temperature."""
+        """Whether anything in the nip changes with temperature."""
         rollers = (self.nip.upper, self.nip.lower)
         materials = [material for roller in rollers for material in roller.materials]
         grows = any(m.thermal is not None and m.thermal.expansion != 0.0 for m in materials)
@@ -102,13 +102,13 @@ class HeatProblem:
         return undivided(self.conduction)
 
     def divided(self, temperatures: Array, solution: Solution, allowed: float) -> Divided:
-        """Return sub-layers for some temperatures, at the frequency of a solution.
+        """Return sub-layers for given temperatures, at the frequency of a solution.
 
         Parameters
         ----------
         temperatures : (n+2,) of cells and surfaces [degC].
-        solution : of a nip near by.
-        allowed : largest change of ln E* inside a sub-layer, storage and loss part.
+        solution : of a similar nip.
+        allowed : largest change of ln E* inside a sub-layer, for storage and loss part.
         """
         width = solution.nip_width
         return divided(self.conduction, temperatures, solution.nip, width, allowed)
@@ -120,13 +120,13 @@ class HeatProblem:
         return replace(self.nip, normal=LineLoad(value))
 
     def at(self, temperatures: Array, cut: Divided, nip: Nip | None = None) -> ThermalState:
-        """Return the nip at some temperatures, and those that its heat leads to.
+        """Return the nip at given temperatures, and the temperatures to which its heat leads.
 
         Parameters
         ----------
         temperatures : (n+2,) of cells and surfaces [degC].
         cut : sub-layers.
-        nip : the cold nip where it is another than that of the problem, in speed or load.
+        nip : the cold nip, where it differs from that of the problem in speed or load.
         """
         cold = self.nip if nip is None else nip
         grown = growths(self.conduction, temperatures, self.heat.ambient)
@@ -174,13 +174,13 @@ def _cells(grid: RadialGrid, solution: Solution, side: Side, grown: Growth) -> A
         faces[-1] = min(faces[-1], roller.coating_thickness)
     below = solution.heat_below(side, faces)
     assert below is not None
-    below[-1] = 0.0  # what a half-space makes below the axis belongs to its innermost cell
+    below[-1] = 0.0  # heat that a half-space generates below the axis goes to the innermost cell
     powers[covering] = below[:-1] - below[1:]
     return powers
 
 
 def _rubbed(solution: Solution) -> float | tuple[float, float]:
-    """Return the friction heat [mW/mm]; with a sheet that above and below it."""
+    """Return the friction heat [mW/mm]; with a sheet, that on its upper and on its lower side."""
     if solution.sheet is None:
         return solution.dissipation_friction or 0.0
     return solution.sheet.friction_upper or 0.0, solution.sheet.friction_lower or 0.0

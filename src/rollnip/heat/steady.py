@@ -28,20 +28,20 @@ from rollnip.rollers import SIDES
 
 Array = NDArray[np.float64]
 
-COARSE = 0.25  # largest change of ln E* inside a sub-layer, at first
-_FINER = 0.5
+COARSE = 0.25  # largest change of ln E* inside a sub-layer at first
+_FINER = 0.5  # factor on it in each further round
 _ROUNDS = 3
-_SHARE = 0.5  # of the model's tolerance: what the iteration may leave of the rise
-_MOST = 20  # nips of one iteration
-_PROBE = 0.03  # of the rise, by which the stability is probed
-_TRIES = 3  # starts, each above the last
-_PAST = 1.5  # times a rise where nothing settled
-_LOW = 0.1  # of the speed, from which the warm branch is followed
+_SHARE = 0.5  # relative tolerance of the rise, over that of the model
+_MOST = 20  # most nips solved in one iteration
+_PROBE = 0.03  # disturbance for the test of stability, over the rise
+_TRIES = 3  # number of starts, each at a larger rise than the last
+_PAST = 1.5  # ratio of the next start to the rise at which the last one did not settle
+_LOW = 0.1  # first speed of the branch that is followed, over the speed of the nip
 
 
 @dataclass
 class _Course:
-    """The progress of an iteration: its last state, its division, and what is left open [K]."""
+    """The progress of an iteration: its last state, its division, and its errors [K]."""
 
     state: ThermalState
     cut: Divided
@@ -63,15 +63,16 @@ def solve_heat(
 
     Parameters
     ----------
-    nip : with a speed; its materials with thermal properties. Their own temperatures do not count.
+    nip : with a speed, and with thermal properties of its materials. Their own ``temperature`` is
+        not used.
     heat : where the heat goes.
     model : geometry and accuracy; ``Model()`` by default.
-    cache : influence functions of solves before.
+    cache : influence functions of earlier solves.
     on_failure : "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
 
     Returns
     -------
-    HeatSolution; where there is no steady state its ``status`` says so, and the temperatures are
+    HeatSolution. Where there is no steady state its ``status`` says so, and the temperatures are
     the last ones reached.
 
     Raises
@@ -108,15 +109,15 @@ def follow_heat(
 ) -> Branch:
     """Follow the steady states from cold with rising speed or load, through thermal runaway.
 
-    Behind the turning point the branch goes on over states that are not stable, back to lower
-    values, and where it turns again over hot states.
+    Beyond the turning point the branch continues over unstable states, back to lower values, and
+    over hot states where it turns again.
 
     Parameters
     ----------
     nip, heat, model, cache : as for `solve_heat`.
     parameter : "speed" [mm/s] or "load" [N/mm].
-    low, high : where the branch begins and ends.
-    largest_rise : at which it ends as well [K].
+    low, high : first and last value.
+    largest_rise : rise at which the branch ends, too [K].
 
     Returns
     -------
@@ -134,7 +135,7 @@ def follow_heat(
 
 
 def _followed(thermal: HeatProblem, cold: ThermalState) -> _Course:
-    """Find the steady state that a cold start leads to; where there is none, say where it ends."""
+    """Find the steady state reached from a cold start; where there is none, say where it ends."""
     course, above = _Course(cold, thermal.whole(), np.inf), 0.0
     try:
         for _ in range(_TRIES):
@@ -151,7 +152,7 @@ def _followed(thermal: HeatProblem, cold: ThermalState) -> _Course:
 
 
 def _where_it_ends(thermal: HeatProblem) -> str:
-    """Return a sentence about the speed at which the covering runs away; "" if it is not found."""
+    """Return a sentence about the speed of thermal runaway; "" where it was not found."""
     speed = thermal.nip.speed
     assert speed is not None
     try:
@@ -168,7 +169,7 @@ def _where_it_ends(thermal: HeatProblem) -> str:
 
 
 def steady_course(thermal: HeatProblem, start: ThermalState) -> _Course:
-    """Iterate the temperatures from those that a state leads to, on sub-layers fine enough."""
+    """Iterate the temperatures, starting from a state, on sub-layers that are fine enough."""
     course = _Course(start, thermal.whole(), np.inf)
     allowed = COARSE
     cut = thermal.divided(start.new, start.solution, allowed)
@@ -178,7 +179,7 @@ def steady_course(thermal: HeatProblem, start: ThermalState) -> _Course:
         allowed *= _FINER
         wanted = thermal.model.tolerance * course.state.hottest
         finer = thermal.divided(course.state.new, course.state.solution, allowed)
-        course.fine *= _FINER**2  # sub-layers have the second order
+        course.fine *= _FINER**2  # the error of sub-layers is of second order
         if finer.count == cut.count or 0.0 < course.fine <= wanted:
             break
         try:
@@ -229,7 +230,7 @@ def _lost(error: RollnipError) -> str:
 
 
 def is_stable(thermal: HeatProblem, state: ThermalState, cut: Divided) -> bool:
-    """Return whether a small rise of all temperatures dies out: what it leads to is smaller."""
+    """Return whether a small rise of all temperatures dies out, that is, leads to a smaller one."""
     rise = state.rise
     try:
         pushed = thermal.at(state.new + _PROBE * rise, cut)

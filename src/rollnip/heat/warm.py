@@ -1,8 +1,7 @@
-"""The nip of warm rollers: each sub-layer with the moduli of its own temperature.
+"""The nip of warm rollers, in which each sub-layer has the moduli of its own temperature.
 
-A layer whose moduli follow the temperature is divided where they vary. A sub-layer has the
-temperature of its middle in the sense of its mean; what that leaves out goes as the square of the
-change inside it.
+A layer whose moduli follow the temperature is divided where they vary. A sub-layer has its mean
+temperature; the error is of the order of the square of the change inside it.
 """
 
 from __future__ import annotations
@@ -24,10 +23,10 @@ from rollnip.rollers import Layer, Roller
 
 Array = NDArray[np.float64]
 Bounds = tuple[tuple[int, ...], ...]
-"""For each layer the cells at which its sub-layers begin, and the one behind its last."""
+"""For each layer the cells at which its sub-layers begin, and the one after its last."""
 
-_MOST = 24  # sub-layers of a layer
-_LOWEST = 1e-6  # of the glassy modulus: loss moduli below it do not count
+_MOST = 24  # most sub-layers of a layer
+_LOWEST = 1e-6  # loss modulus over the magnitude of the modulus, below which it is not resolved
 
 
 def follows(material: Material) -> bool:
@@ -36,7 +35,7 @@ def follows(material: Material) -> bool:
 
 
 def at_temperature(material: Material, temperature: float) -> Material:
-    """Return the material at a temperature [degC]; itself where it has no shift."""
+    """Return the material at a temperature [degC]; unchanged where it has no shift."""
     if isinstance(material, Viscoelastic) and material.shift is not None:
         return replace(material, temperature=temperature)
     return material
@@ -48,14 +47,14 @@ class Divided:
 
     Attributes
     ----------
-    upper, lower : of each.
+    upper, lower : bounds of the sub-layers of each roller.
     """
 
     upper: Bounds
     lower: Bounds
 
     def of(self, side: int) -> Bounds:
-        """Return those of the upper (0) or the lower roller (1)."""
+        """Return the bounds for the upper (0) or the lower roller (1)."""
         return self.upper if side == 0 else self.lower
 
     @property
@@ -77,8 +76,8 @@ def divided(
     Parameters
     ----------
     temperatures : (n+2,) of cells and surfaces [degC].
-    nip, width : its speed over the nip width [mm] is the frequency that counts.
-    allowed : largest change of ln E* inside a sub-layer, storage and loss part.
+    nip, width : the speed of the nip over its width [mm] determines the frequency.
+    allowed : largest change of ln E* inside a sub-layer, for storage and loss part.
     """
     speed = nip.speed or 0.0
     parts = (
@@ -141,7 +140,7 @@ class Growth:
     core: float
 
     def thicker(self, roller: Roller) -> float:
-        """Return thicknesses over the cold ones; 1 without layers and on a half-space core."""
+        """Return warm over cold thicknesses; 1 without layers and on a half-space core."""
         if not roller.layers or roller.core is not None:
             return 1.0
         return 1.0 + (self.total - self.core) / roller.coating_thickness
@@ -166,18 +165,18 @@ def warm_nip(
     cut: Divided,
     grown: tuple[Growth, Growth],
 ) -> Nip:
-    """Return the nip of rollers that have some temperatures.
+    """Return the nip of rollers at given temperatures.
 
     Parameters
     ----------
     nip : cold.
     temperatures : (n+2,) of cells and surfaces [degC].
     cut : its sub-layers.
-    grown : how much both have grown.
+    grown : growth of both rollers.
 
     Returns
     -------
-    Nip; a prescribed approach is that of the cold rollers, so it grows with them.
+    Nip; a prescribed approach is that of the cold rollers, so that it grows with them.
     """
     rollers = [
         _warm_roller(grid, conduction.part(temperatures, side), cut.of(side), grown[side])
@@ -209,7 +208,7 @@ def _warm_roller(grid: RadialGrid, temperatures: Array, cut: Bounds, grown: Grow
 
 
 def _with(roller: Roller, radius: float, layers: Sequence[Layer], core: Material | None) -> Roller:
-    """Return a roller of the same profile and shaft."""
+    """Return a roller with the same profile and shaft."""
     return Roller(
         radius=radius, layers=layers, core=core, profile=roller.profile, shaft=roller.shaft
     )

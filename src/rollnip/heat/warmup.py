@@ -1,8 +1,8 @@
-"""Warming up: temperatures over time, from a start where all is equally warm.
+"""Warming up: temperatures over time, starting from one temperature everywhere.
 
-rho c dT/dt follows from conduction and from the heat of the nip, which follows the temperatures
-within a turn. That heat is tabulated over theta, the mean rise of the coverings on the way to the
-steady state (0 to 1), from nips at the temperatures of the path itself; the path and its table are
+rho c dT/dt follows from conduction and from the heat of the nip, which adapts to the temperatures
+within a turn. This heat is tabulated over theta, the mean rise of the coverings relative to the
+steady state (0 to 1), from nips at the temperatures of the warming path itself; path and table are
 computed in turn until they agree. The equations are integrated by scipy's BDF.
 """
 
@@ -32,13 +32,13 @@ from rollnip.rollers import SIDES, Side
 Array = NDArray[np.float64]
 
 _NODES = (0.0, 0.03, 0.1, 0.2, 0.35, 0.55, 0.75, 1.0)
-_ALLOWED = 0.25  # change of ln E* inside a sub-layer
+_ALLOWED = 0.25  # largest change of ln E* inside a sub-layer
 _SWEEPS = 5
-_SHARE = 5.0  # times the model's tolerance: change of the path over the largest rise
+_SHARE = 5.0  # allowed change of the path over the largest rise, over the model's tolerance
 _TIMES = 121
-_LONG = 5.0  # times the slowest time constant
-_RTOL, _ATOL = 1e-6, 1e-4  # of the integration: relative, and K
-_RUNAWAY = 200.0  # K over the start: how far the table goes where there is no steady state
+_LONG = 5.0  # duration over the slowest time constant
+_RTOL, _ATOL = 1e-6, 1e-4  # tolerances of the integration: relative, and absolute [K]
+_RUNAWAY = 200.0  # rise over the start up to which the table extends without a steady state [K]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -49,9 +49,9 @@ class WarmUp(Sealed):
     ----------
     time : (nt,) from the start [s].
     converged, status : whether path and heat agree, and a sentence about it.
-    steady : the state that it leads to.
-    error : what the last sweep changed [K].
-    solves : nips that were solved.
+    steady : the state to which it leads.
+    error : change in the last sweep [K].
+    solves : number of nips that were solved.
     values : (nt, n+2) temperatures of cells and surfaces [degC].
     power : (nt,) heat of the nip [W/m].
     """
@@ -67,7 +67,7 @@ class WarmUp(Sealed):
 
     @property
     def conduction(self) -> Conduction:
-        """The cells that the temperatures belong to."""
+        """The cells to which the temperatures belong."""
         return self.steady.conduction
 
     def profile(self, side: Side, time: float) -> tuple[Array, Array]:
@@ -85,14 +85,14 @@ class WarmUp(Sealed):
         return np.asarray(self.values[:, self.conduction.cells + SIDES.index(side)])
 
     def bond(self, side: Side) -> Array | None:
-        """Return the temperature of the bond to a rigid core, (nt,) [degC]; None without."""
+        """Return the temperature of the bond to a rigid core, (nt,) [degC]; None without a bond."""
         index = SIDES.index(side)
         rows = [bond_temperature(self.conduction, row, index) for row in self.values]
         return None if rows[0] is None else np.array(rows, dtype=float)
 
     @cached_property
     def half_time(self) -> float | None:
-        """Time at which the hottest place has half of its final rise [s]; None where it has not."""
+        """Time at which the hottest place has half of its final rise [s]; None if not reached."""
         hottest = np.max(self.values, axis=1)
         goal = 0.5 * (hottest[0] + float(np.max(self.steady.state.new)))
         if hottest[-1] <= goal:
@@ -189,11 +189,11 @@ class _WarmingPath:
         self._rows: Any = None
 
     def guess(self, share: float) -> Array:
-        """Return temperatures on the straight way to the steady state, (n+2,)."""
+        """Return temperatures on the straight line to the steady state, (n+2,)."""
         return self.start + share * self.goal
 
     def theta(self, values: Array) -> Array:
-        """Return how far on the way temperatures (..., n+2) are."""
+        """Return theta of temperatures (..., n+2)."""
         return np.asarray((values[..., :-2] - self.start[:-2]) @ self.weights)
 
     def tabulate(self, temperatures: list[Array]) -> None:
@@ -213,13 +213,13 @@ class _WarmingPath:
         self._rows = rows if len(rows) == 1 else PchipInterpolator(self.nodes, rows, axis=0)
 
     def table(self, theta: float) -> Array:
-        """Return the heat of the nip at theta, as `_packed` orders it."""
+        """Return the heat of the nip at theta, in the order of `_packed`."""
         if isinstance(self._rows, np.ndarray):
             return np.asarray(self._rows[0])
         return np.asarray(self._rows(min(max(theta, 0.0), 1.0)))
 
     def follow(self, values: Array) -> None:
-        """Solve the nips of the table again at the temperatures of a path, as far as it goes."""
+        """Solve the nips of the table again at the temperatures of a path, as far as it reaches."""
         theta = self.theta(values)
         rising = np.maximum.accumulate(theta)
         keep = np.concatenate([[True], np.diff(rising) > 0.0])
@@ -260,7 +260,7 @@ class _WarmingPath:
         return np.asarray(-inner / self.conduction.capacity[:, None])
 
     def integrate(self, time: Array) -> Array:
-        """Return temperatures of cells and surfaces at some times, (nt, n+2) [degC]."""
+        """Return the temperatures of cells and surfaces at given times, (nt, n+2) [degC]."""
         conduction, n = self.conduction, self.conduction.cells
 
         def slope(_: float, cells: Array) -> Array:
@@ -296,7 +296,7 @@ class _WarmingPath:
         return np.asarray(np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ cells))
 
     def row(self, cells: Array) -> Array:
-        """Return the heat of the nip at temperatures of the cells, as `_packed` orders it."""
+        """Return the heat of the nip at temperatures of the cells, in the order of `_packed`."""
         return self.table(float((cells - self.start[:-2]) @ self.weights))
 
 

@@ -1,4 +1,4 @@
-"""Fitting: unknown material, friction and thickness from what was measured on a nip."""
+"""Fitting: unknown materials, friction and thicknesses from measurements on a nip."""
 
 from rollnip.identification.costs import (
     Approaches,

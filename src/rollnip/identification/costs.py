@@ -1,4 +1,4 @@
-"""Measurements as costs: each says which nips it needs and what it would have measured there."""
+"""Measurements as costs: each states which nips it needs and predicts what is measured there."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Cost(ABC):
-    """A cost to minimise: one set of measurements or several; ``a + 2 * b`` is one too."""
+    """A cost to minimise: one set of measurements or several; ``a + 2 * b`` is one, too."""
 
     @property
     @abstractmethod
@@ -55,15 +55,15 @@ class Measurements(Cost):
     Parameters
     ----------
     at :
-        values of the case by path under which was measured: arrays of shape (n,), or single
-        values that hold for the whole set, also as texts with units.
+        values of the case, by path, at which the measurements were made: arrays of shape (n,), or
+        single values that hold for the whole set, which may be texts with units.
     measured :
-        (n,) what was measured, in base units.
+        (n,) measured values, in base units.
     standard_error :
-        of each value, or of all; None where it is not known: it is then estimated from how
-        much the measurements scatter about the fit.
+        of each value, or of all; None where it is not known. It is then estimated from the scatter
+        of the measurements about the fit.
     weight :
-        by which the set's squares count; 1 leaves it to the standard errors.
+        factor on the squares of the set; 1 leaves the weighting to the standard errors.
     name :
         for reports; the kind by default.
     rows :
@@ -72,7 +72,7 @@ class Measurements(Cost):
     Raises
     ------
     InvalidInputError
-        where shapes do not fit together, or a value is not finite or not positive as it must be.
+        where shapes do not fit together, or a value is not finite or not positive as required.
     """
 
     quantity: ClassVar[str]
@@ -81,9 +81,9 @@ class Measurements(Cost):
     """Its base unit."""
     needs_speed: ClassVar[bool] = False
     nuisances: ClassVar[int] = 0
-    """Numbers fitted within the set, beside the unknowns."""
+    """Number of parameters fitted within the set, besides the unknowns."""
     along_face: ClassVar[bool] = False
-    """Whether faces are solved for it, not nips alone."""
+    """Whether faces are solved for it instead of single nips."""
 
     at: Mapping[str, Any]
     measured: ArrayLike
@@ -128,19 +128,19 @@ class Measurements(Cost):
     @property
     @abstractmethod
     def conditions(self) -> list[dict[str, Any]]:
-        """The changes of the case, by path, for each nip that must be solved."""
+        """The changes of the case, by path, for each nip that has to be solved."""
 
     @property
     @abstractmethod
     def abscissa(self) -> tuple[str, Array]:
-        """The path (or ``x``) and the (n,) numbers that the values are drawn against."""
+        """The path (or ``x``) and the (n,) numbers against which the values are plotted."""
 
     @abstractmethod
     def predict(self, solutions: Sequence[Solution]) -> Array:
         """Return the predicted measurements (n,) from the solutions of ``conditions``."""
 
     def _check_conditions(self) -> None:
-        """Raise where an array of conditions has another length than the values."""
+        """Raise where an array of conditions has not the length of the values."""
         for path, value in self.at.items():
             if isinstance(value, np.ndarray) and value.shape != self.values.shape:
                 raise InvalidInputError(
@@ -167,7 +167,7 @@ class Measurements(Cost):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scalars(Measurements):
-    """Measurements of one number of the result, a nip for each; see the kinds below."""
+    """Measurements of one number of the result, one nip for each; see the kinds below."""
 
     result: ClassVar[str]
 
@@ -181,7 +181,7 @@ class Scalars(Measurements):
 
     @property
     def abscissa(self) -> tuple[str, Array]:
-        """The first condition that changes, else the number of the measurement."""
+        """The first condition that varies, or else the number of the measurement."""
         for path, value in self.at.items():
             if isinstance(value, np.ndarray) and np.ptp(value) > 0.0:
                 return path, value
@@ -204,44 +204,44 @@ def _figure(key: str) -> tuple[str, str, str]:
 
 
 class NipWidths(Scalars):
-    """Nip widths [mm], mostly at line loads: ``at={"nip.load": [...]}``."""
+    """Nip widths [mm], usually at line loads: ``at={"nip.load": [...]}``."""
 
     quantity, unit, result = _figure("nip_width")
 
 
 class Approaches(Scalars):
-    """Approaches of the axles [mm], mostly at line loads."""
+    """Approaches of the axles [mm], usually at line loads."""
 
     quantity, unit, result = _figure("approach")
 
 
 class Loads(Scalars):
-    """Line loads [N/mm], mostly at approaches: ``at={"nip.approach": [...]}``."""
+    """Line loads [N/mm], usually at approaches: ``at={"nip.approach": [...]}``."""
 
     quantity, unit, result = _figure("load")
 
 
 class PeakPressures(Scalars):
-    """Peak pressures [MPa], mostly at line loads."""
+    """Peak pressures [MPa], usually at line loads."""
 
     quantity, unit, result = _figure("peak_pressure")
 
 
 class Creepages(Scalars):
-    """Creepages, mostly at tractions: ``at={"nip.traction": [...]}``."""
+    """Creepages, usually at tractions: ``at={"nip.traction": [...]}``."""
 
     quantity, unit, result = _figure("creepage")
 
 
 class RollingResistances(Scalars):
-    """Rolling-resistance coefficients, mostly at speeds: ``at={"nip.speed": [...]}``."""
+    """Rolling-resistance coefficients, usually at speeds: ``at={"nip.speed": [...]}``."""
 
     quantity, unit, result = _figure("rolling_resistance")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _OfOneRoller(Scalars):
-    """A figure that either roller has."""
+    """A figure that each roller has."""
 
     roller: Side = "upper"
 
@@ -256,7 +256,7 @@ class _OfOneRoller(Scalars):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Torques(_OfOneRoller):
-    """Driving torques per length [N] on the axle of one roller, mostly at speeds.
+    """Driving torques per length [N] on the axle of one roller, usually at speeds.
 
     Parameters
     ----------
@@ -271,10 +271,10 @@ class Torques(_OfOneRoller):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Feeds(_OfOneRoller):
-    """Feeds of a sheet over one roller, mostly at loads or tensions.
+    """Feeds of a sheet over one roller, usually at loads or tensions.
 
-    A feed is the length of sheet, free of tension, over the length that rolled off the roller,
-    less 1: ``at={"sheet.tension_in": [...]}``.
+    A feed is the length of sheet, free of tension, over the length rolled off by the roller, minus
+    1: ``at={"sheet.tension_in": [...]}``.
 
     Parameters
     ----------
@@ -294,7 +294,7 @@ class Feeds(_OfOneRoller):
 
 
 def check_roller(roller: str) -> None:
-    """Raise InvalidInputError unless it is "upper" or "lower"."""
+    """Raise InvalidInputError unless ``roller`` is "upper" or "lower"."""
     if roller not in ("upper", "lower"):
         raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')
 

@@ -1,4 +1,4 @@
-"""Fitting: unknown values of a case from measurements."""
+"""Fitting of unknown values of a case to measurements."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ from rollnip.model import Geometry, Model
 
 Array = NDArray[np.float64]
 
-_MOST_ROUNDS = 8  # rounds of fitting and estimating the noise
-_STILL = 0.02  # relative change of the noise of the sets against each other
-_IMPROBABLE = 0.01  # chi-square below this probability: the errors given are too small
+_MOST_ROUNDS = 8  # most rounds of fitting and estimating the noise
+_STILL = 0.02  # change of the ratios of the noise of sets, below which the rounds end
+_IMPROBABLE = 0.01  # probability of chi-square, below which the given errors are too small
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,12 +61,12 @@ class LeastSquares:
     Parameters
     ----------
     geometry, tolerance :
-        geometry and tolerance of every solve; None: as the case says. A fit needs hundreds of
-        solves: "curved" or "linear" take a fraction of the time of "finite".
+        geometry and tolerance of every solve; None: those of the case. A fit needs hundreds of
+        solves; "curved" and "linear" take a fraction of the time of "finite".
     tried :
-        starts at which the misfit is computed, besides the one given.
+        number of starts at which the misfit is computed, besides the given one.
     followed :
-        starts from which a search is run: the best, and the one given.
+        number of starts from which a search is run: the best ones, and the given one.
     step :
         relative step of the derivatives, between 1e-3 and 0.1.
     confidence :
@@ -74,9 +74,9 @@ class LeastSquares:
     profile :
         whether intervals are also computed from profiles of the likelihood.
     loss :
-        how deviations count: "squares", or "huber": those beyond 1.345 standard errors count less
-        than their squares, so that a few wrong values do little. Intervals are then those of the
-        covariance.
+        function of the deviations: "squares", or "huber", where deviations above 1.345 standard
+        errors count less than their squares, so that a few wrong values have little effect.
+        Intervals are then those of the covariance.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def identify(
     Parameters
     ----------
     case :
-        a case file, or the tree of one; all that is not unknown is taken from it.
+        a case file, or the tree of one; everything that is not unknown is taken from it.
     unknowns :
         what is to be found, within bounds.
     cost :
@@ -130,10 +130,10 @@ def identify(
     method :
         starts, derivatives, intervals; ``LeastSquares()`` by default.
     on_solve :
-        called after each solved nip with their number, to show progress.
+        called after each solved nip with the number of nips solved, to show progress.
     workforce :
-        who solves nips of which numbers are wanted, such as what `rollnip.sweeps.together` yields;
-        None: this process.
+        what solves nips of which only numbers are needed, such as the result of
+        `rollnip.sweeps.together`; None: this process.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def identify(
     Raises
     ------
     InvalidInputError
-        where a path is no number of the case, there are fewer measurements than unknowns, or the
+        where a path is not a number of the case, there are fewer measurements than unknowns, or the
         nip has no solution at any start.
     CaseFileError
         where the case cannot be read.
@@ -180,7 +180,7 @@ def fitted(
     Parameters
     ----------
     predictor :
-        values of the unknowns to predictions of each set.
+        function from values of the unknowns to predictions of each set.
     tolerance :
         relative accuracy of the predictions.
     """
@@ -209,7 +209,7 @@ def fitted(
         *identifiability_warnings(misfit, best, spread, scatter.quantile, tolerance),
         *misfit_warnings(scatter.chi_square, scatter.degrees, scatter.probability, scatter.given),
         *quality_warnings(misfit, plain.jacobian, plain.residuals, noise, scatter.degrees),
-        # with the noise estimated the searches were weighed with a guess of it
+        # where the noise is estimated, the searches were weighted with a guess of it
         *(start_warnings(ends, misfit, spread, rise) if not any(noise.estimated) else ()),
         *_profile_warnings(profiles, rise),
     ]
@@ -246,7 +246,7 @@ def fitted(
 
 @dataclass(frozen=True, slots=True)
 class _ChiSquare:
-    """The chi-square of a fit, and what follows from it for the intervals."""
+    """The chi-square of a fit, and its consequences for the intervals."""
 
     chi_square: float
     degrees: float
@@ -257,7 +257,7 @@ class _ChiSquare:
 
     @classmethod
     def of(cls, misfit: Misfit, best: Local, noise: Noise, confidence: float) -> _ChiSquare:
-        plain = best.residuals / np.sqrt(misfit.row_weights)  # straight ones
+        plain = best.residuals / np.sqrt(misfit.row_weights)  # without the loss function
         total = float(plain @ plain)
         nuisances = sum(part.nuisances for part in misfit.parts)
         degrees = float(misfit.size - best.ended.size - nuisances)
@@ -301,15 +301,15 @@ def _solver_warnings(forward: Forward, model: Model) -> list[str]:
         )
     if forward.fallbacks:
         said.append(
-            f'Strains are too large for `geometry = "{model.geometry}"` in {forward.fallbacks} of '
-            "the nips at the fitted values; these were solved in another one, so that predictions "
-            'jump between them. Fit with `geometry = "curved"`.'
+            f"In {forward.fallbacks} of the nips at the fitted values no solution of `geometry = "
+            f'"{model.geometry}"` was found; a simpler geometry was used there, so predictions '
+            'jump between the two. Fit with `geometry = "curved"`.'
         )
     return said
 
 
 def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Local, Noise]:
-    """Return the fit with the noise estimated from it, where errors were not given."""
+    """Return the fit with the noise estimated from it, where standard errors were not given."""
     if not any(noise.estimated):
         return misfit, best, noise
     for _ in range(_MOST_ROUNDS):

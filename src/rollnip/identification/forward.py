@@ -1,4 +1,4 @@
-"""Predictions of the measurements from values of the unknowns: one solve for each nip."""
+"""Predictions of the measurements from values of the unknowns, with one solve for each nip."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ _B = TypeVar("_B")
 
 
 class Predictor(Protocol):
-    """A predictor: it returns each set's predictions at values of the unknowns, or None."""
+    """A predictor of the measurements at given values of the unknowns."""
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
-        """Return the predictions of each set, None where there are none at these values."""
+        """Return the predictions of each set; None where there are none at these values."""
 
 
 class Workforce(Protocol):
-    """The workers that solve nips; `rollnip.sweeps.Together` is such a type."""
+    """What solves nips, possibly in parallel; `rollnip.sweeps.Together` is one."""
 
     @property
     def evaluate(self) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
@@ -40,12 +40,12 @@ class Workforce(Protocol):
         ...
 
     def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
-        """Call a function with every item, perhaps at the same time; results in order."""
+        """Call a function with every item, possibly in parallel; return the results in order."""
         ...
 
 
 class Numbers:
-    """The numbers of a solution from a row of `rollnip.sweeps.evaluate`, as attributes."""
+    """The numbers of a solution as attributes, from a row of `rollnip.sweeps.evaluate`."""
 
     def __init__(self, row: Mapping[str, Any]) -> None:
         self._row = row
@@ -59,7 +59,7 @@ class Numbers:
         return Numbers({"converged": self.converged, **named})
 
     def __getattr__(self, name: str) -> Any:
-        """Return a number, None where it is not defined."""
+        """Return a number; None where it is not defined."""
         row: Mapping[str, Any] = self.__dict__["_row"]
         if name not in row:
             raise AttributeError(name)
@@ -80,8 +80,8 @@ class Forward:
     on_solve :
         called after each nip with the number solved so far.
     workforce :
-        who solves the nips of which only numbers are wanted, such as several processes or a
-        database; None: this process, one after the other.
+        what solves the nips of which only numbers are needed, such as several processes or a
+        database; None: this process, one nip after the other.
     """
 
     def __init__(
@@ -97,14 +97,14 @@ class Forward:
         self.solves = 0
         self.unverified = 0
         self.refused = ""
-        self.is_verified = True  # all nips of the last prediction
-        self.fallbacks = 0  # solves with another geometry than wanted
+        self.is_verified = True  # whether all nips of the last prediction were verified
+        self.fallbacks = 0  # number of solves in another geometry than wanted
         self._on_solve = on_solve
         self._rows = NipRows()
         self._workforce = workforce
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
-        """Predictions of each set; None, and why in ``refused``, where a nip has no solution."""
+        """Return the predictions of each set; None, and why in ``refused``, without a solution."""
         known: dict[str, Solution | Numbers] = {}
         self.is_verified, self.fallbacks = True, 0
         try:
@@ -129,7 +129,7 @@ class Forward:
         values: Mapping[str, float],
         known: dict[str, Solution | Numbers],
     ) -> None:
-        """Solve the nips of all sets that need numbers only, as many at a time as can be."""
+        """Solve the nips of all sets that need only numbers, in parallel where possible."""
         trees: dict[str, dict[str, Any]] = {}
         for part in (one for one in self.parts if isinstance(one, Scalars)):
             for row in part.conditions:
@@ -177,7 +177,7 @@ class Forward:
         row: Mapping[str, Any],
         known: dict[str, Solution | Numbers],
     ) -> Solution | Numbers:
-        """Return the solution of one nip; nips of the same values are solved once."""
+        """Return the solution of one nip; nips with equal values are solved once."""
         case = parse_case(with_values(self.tree, {**values, **row}))
         key = case_hash(case)
         if key not in known:
@@ -188,14 +188,14 @@ class Forward:
 
 
 def _geometry_of(case: Case) -> str:
-    """Return the geometry that the nip of a case is solved in."""
+    """Return the geometry in which the nip of a case is solved."""
     return geometry_for(case.nip, case.model)
 
 
 def check_paths(
     tree: Mapping[str, Any], unknowns: Sequence[Unknown], parts: Sequence[Measurements]
 ) -> None:
-    """Raise InvalidInputError where a path is no number of the case, twice there, or both."""
+    """Raise InvalidInputError where a path is not a number of the case, or is used twice."""
     paths = [one.path for one in unknowns]
     for path in paths:
         if dimension_at(tree, path) is None:
@@ -213,7 +213,7 @@ def check_paths(
 
 
 def model_of(tree: Mapping[str, Any], geometry: str | None, tolerance: float | None) -> Model:
-    """The model of the case with what is not None put in its place."""
+    """Return the model of the case, with geometry and tolerance replaced where they are given."""
     model = parse_case(tree).model
     changed: dict[str, Any] = {"geometry": geometry, "tolerance": tolerance}
     return replace(model, **{name: value for name, value in changed.items() if value is not None})

@@ -28,7 +28,7 @@ class Impressions(Measurements):
     y :
         (n,) places from the middle of the face [mm].
     at, measured, standard_error, weight, name :
-        see `Measurements`; widths under equal conditions are those of one face.
+        see `Measurements`; widths with the same conditions belong to one face.
     """
 
     quantity, unit = "nip width", "mm"
@@ -52,7 +52,7 @@ class Impressions(Measurements):
 
     @property
     def conditions(self) -> list[dict[str, Any]]:
-        """The changes of the case for each face that must be solved."""
+        """The changes of the case for each face that has to be solved."""
         return self._faces[0]
 
     @property
@@ -77,7 +77,7 @@ class Impressions(Measurements):
 
     @property
     def _faces(self) -> tuple[list[dict[str, Any]], list[int]]:
-        """Conditions of each face, and the face of each width."""
+        """Conditions of each face, and the index of the face of each width."""
         found: list[dict[str, Any]] = []
         which = []
         for index in range(self.values.size):

@@ -12,10 +12,10 @@ from rollnip.identification.search import Local, Misfit
 
 Array = NDArray[np.float64]
 
-_MOST_ENDS = 8  # tries for one end of an interval
-_MOST_STEPS = 6  # steps of the other unknowns at one value of this one
-_CLOSE = 0.01  # relative, of the distance at which an end is taken
-_LITTLE = 0.01  # share of the wanted rise; a smaller gain ends the search of the others
+_MOST_ENDS = 8  # most trials for one end of an interval
+_MOST_STEPS = 6  # most steps of the other unknowns at one value of this one
+_CLOSE = 0.01  # relative accuracy of the distance of an end
+_LITTLE = 0.01  # gain over the wanted rise, below which the search over the others ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +24,9 @@ class IntervalEnd:
 
     Attributes
     ----------
-    coordinate : coordinate of the unknown, in the search's scale.
-    is_bound : whether it is the bound: the data alone do not end the interval.
-    gain : by how much the sum of squares fell below that of the fit on the way; 0 as it should.
+    coordinate : coordinate of the unknown, in the scale of the search.
+    is_bound : whether it is the bound, because the data alone do not limit the interval.
+    gain : by how much the sum of squares fell below that of the fit on the way; it should be 0.
     """
 
     coordinate: float
@@ -37,8 +37,8 @@ class IntervalEnd:
 def covariance(jacobian: Array, weights: Array) -> Array:
     """Return the covariance of the unknowns (p, p) from the weighted Jacobian at the best fit.
 
-    With weights other than 1 what the rows were multiplied with does not match their scatter:
-    (J'J)^-1 J'WJ (J'J)^-1, W the weights. Directions that the data do not see get 1e300.
+    With weights other than 1, the factors on the rows do not match their scatter: (J'J)^-1 J'WJ
+    (J'J)^-1, W the weights. Directions that the data do not determine get 1e300.
     """
     _, values, right = np.linalg.svd(jacobian, full_matrices=False)
     floor = 1e-10 * max(float(values[0]), 1e-300)
@@ -51,14 +51,15 @@ def covariance(jacobian: Array, weights: Array) -> Array:
 
 
 def prediction_errors(misfit: Misfit, jacobian: Array, spread: Array) -> list[Array]:
-    """Standard errors of the predictions of each set, in its unit, from those of the unknowns.
+    """Return the standard errors of the predictions of each set, in its unit.
 
-    First order: sqrt(J C J') for each value. inf where a direction matters that the data leave
-    open. They say how well the fitted curve is known, not how far measurements lie from it.
+    They follow from those of the unknowns to first order: sqrt(J C J') for each value, or inf where
+    it depends on a direction that the data do not determine. They say how well the fitted curve is
+    known, not how far measurements lie from it.
 
     Parameters
     ----------
-    jacobian : (n, p) straight derivatives of the weighted residuals.
+    jacobian : (n, p) derivatives of the weighted residuals, without the loss function.
     spread : (p, p) covariance of the unknowns.
     """
     found, first = [], 0
@@ -76,8 +77,8 @@ def profile_ends(
 ) -> tuple[IntervalEnd, IntervalEnd]:
     """Return both ends of the profile-likelihood interval of one unknown.
 
-    The interval ends where the sum of squares, least over all other unknowns, is quantile^2
-    above its least value. Where the model is linear this is the interval of the covariance.
+    The interval ends where the sum of squares, minimised over all other unknowns, is quantile^2
+    above its minimum. Where the model is linear this is the interval of the covariance.
 
     Parameters
     ----------
@@ -99,7 +100,7 @@ def _profile_end(
     error = float(np.sqrt(spread[index, index]))
     along = spread[:, index] / spread[index, index]
     distance, gain = min(target * error, room), 0.0
-    inner, outer = 0.0, np.inf  # distances known to lie inside and outside of the interval
+    inner, outer = 0.0, np.inf  # distances known to lie inside and outside the interval
     for _ in range(_MOST_ENDS):
         begin = best.ended + sign * distance * along
         begin[index] = best.ended[index] + sign * distance
@@ -122,10 +123,10 @@ def _profile_end(
 
 
 def _least_rise(misfit: Misfit, best: Local, begin: Array, index: int, target: float) -> float:
-    """Rise of the sum of squares with one unknown held, least over the others.
+    """Return the rise of the sum of squares with one unknown held, minimised over the others.
 
-    Gauss-Newton steps; the derivatives are those at the best fit, updated after each step by
-    what was found (Broyden 1965), so that a step costs one evaluation and not 2 p.
+    It takes Gauss-Newton steps. The derivatives are those at the best fit, updated after each step
+    (Broyden 1965), so that a step costs one evaluation instead of 2 p.
     """
     others = np.arange(begin.size) != index
     z = np.clip(begin, misfit.low, misfit.high)
@@ -152,7 +153,7 @@ def _least_rise(misfit: Misfit, best: Local, begin: Array, index: int, target: f
 
 
 def _update(jacobian: Array, step: Array, change: Array) -> None:
-    """Broyden's update in place: the least change that makes ``jacobian @ step == change``."""
+    """Apply Broyden's update in place, the smallest change with ``jacobian @ step == change``."""
     size = float(step @ step)
     if size > 0.0:
         jacobian += np.outer(change - jacobian @ step, step) / size

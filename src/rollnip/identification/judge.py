@@ -1,4 +1,4 @@
-"""Warnings of a fit in plain words: weak unknowns, twins, bounds, misfit."""
+"""Warnings of a fit in plain words: undetermined unknowns, correlated pairs, bounds, misfit."""
 
 from __future__ import annotations
 
@@ -13,19 +13,20 @@ from rollnip.identification.unknowns import Unknown, outer_values
 
 Array = NDArray[np.float64]
 
-_AT_BOUND = 1e-3  # share of the range
-_TWINS = 0.98  # correlation from which two unknowns are said not to be told apart
-_NO_EFFECT = 0.1  # share of the tolerance; smaller changes may be errors of the solver
-_VAGUE = 0.5  # of the range, or relative: intervals as long as this say little
+_AT_BOUND = 1e-3  # distance over the range, within which a value is at its bound
+_TWINS = 0.98  # correlation above which two unknowns cannot be told apart
+_NO_EFFECT = 0.1  # change over the tolerance, below which it may be an error of the solver
+_VAGUE = 0.5  # half-length of an interval over the range, above which it says little
 _IMPROBABLE = 0.01
 _TOO_GOOD = 1e-4
 
 
 def singular_values(misfit: Misfit, best: Local) -> Array:
-    """Singular values (p,) of the Jacobian over the ranges of the unknowns, largest first.
+    """Return the singular values (p,) of the Jacobian over the ranges of the unknowns.
 
-    They say in how many directions, and how well, the data determine: one below the quantile of
-    the intervals belongs to a combination that they leave as open as the bounds do.
+    Largest first. They say in how many directions, and how well, the data determine the unknowns: a
+    value below the quantile of the intervals belongs to a combination that the data determine no
+    better than the bounds do.
     """
     return np.asarray(np.linalg.svd(_over_ranges(misfit, best), compute_uv=False), dtype=float)
 
@@ -45,8 +46,8 @@ def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
             value = one.low if side == "low" else one.high
             which = "lower" if side == "low" else "upper"
             said.append(
-                f"`{one.path}` ended at its {which} bound {value:g}: the data ask for a value "
-                "beyond it, or do not determine it; its covariance interval means nothing."
+                f"`{one.path}` ended at its {which} bound {value:g}: the data fit a value "
+                "beyond it better, or do not determine it; its covariance interval is not valid."
             )
     return said
 
@@ -79,7 +80,7 @@ def identifiability_warnings(
 def misfit_warnings(
     chi_square: float, degrees: float, probability: float | None, given: bool
 ) -> list[str]:
-    """Return a warning where the scatter about the fit contradicts the standard errors given."""
+    """Return a warning where the scatter about the fit contradicts the given standard errors."""
     if not given or probability is None:
         return []
     if probability < _IMPROBABLE:
@@ -99,7 +100,7 @@ def misfit_warnings(
 
 
 def start_warnings(ends: Sequence[Local], misfit: Misfit, spread: Array, rise: float) -> list[str]:
-    """Return a warning where another start led to other values with nearly the same misfit."""
+    """Return a warning where another start led to other values with almost the same misfit."""
     best = ends[0]
     errors = np.sqrt(np.diag(spread))
     for other in ends[1:]:
@@ -118,12 +119,12 @@ def start_warnings(ends: Sequence[Local], misfit: Misfit, spread: Array, rise: f
 
 
 def _over_ranges(misfit: Misfit, best: Local) -> Array:
-    """(n, p) change of the residuals when an unknown runs over its whole range, first order."""
+    """Return the change (n, p) of the residuals over the range of each unknown, to first order."""
     return np.asarray(best.jacobian * (misfit.high - misfit.low))
 
 
 def _without_effect(misfit: Misfit, best: Local, tolerance: float) -> list[int]:
-    """Return the unknowns whose step of the derivatives hardly changes any value."""
+    """Return the unknowns whose step for the derivatives hardly changes any value."""
     steps = misfit.steps(best.ended)
     rows = sum(part.values.size for part in misfit.parts)
     floor = np.concatenate(
@@ -163,7 +164,7 @@ def _twin_words(unknowns: Sequence[Unknown], pair: tuple[int, int], spread: Arra
 def _open_combinations(
     misfit: Misfit, best: Local, among: Sequence[int], quantile: float, *, paired: bool
 ) -> list[str]:
-    """Return combinations of three or more unknowns that the data leave as open as the bounds."""
+    """Return warnings on combinations of unknowns that the data leave as open as the bounds do."""
     if len(among) < 3 or paired:
         return []
     _, values, right = np.linalg.svd(_over_ranges(misfit, best)[:, among], full_matrices=False)

@@ -1,8 +1,8 @@
 """The loss of residuals: their squares, or less than that where they are large (Huber).
 
-A residual r, over its standard error, counts rho(r) = r^2 up to k and 2 k |r| - k^2 beyond
-(Huber 1964, Ann. Math. Statist. 35, 73-101), k = 1.345: for normal noise that costs 5 % of the
-information. The search works with r* = sign(r) sqrt(rho(r)), whose squares add up to the sum.
+A residual r, over its standard error, counts as rho(r) = r^2 up to k and 2 k |r| - k^2 beyond
+(Huber 1964, Ann. Math. Statist. 35, 73-101), k = 1.345; for normal noise this costs 5 % of the
+information. The search works with r* = sign(r) sqrt(rho(r)), whose squares add up to the loss.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ Array = NDArray[np.float64]
 Loss = Literal["squares", "huber"]
 LOSSES: tuple[Loss, ...] = ("squares", "huber")
 BEYOND = 1.345
-"""Standard errors beyond which a residual counts less than its square, with Huber's loss."""
+"""Standard errors above which a residual counts less than its square, with Huber's loss."""
 
 
 def bent(residuals: Array, loss: Loss) -> Array:
-    """Return the residuals as the loss counts them: the sum of their squares is the loss."""
+    """Return the residuals r* whose sum of squares is the loss."""
     if loss == "squares":
         return residuals
     size = np.abs(residuals)
@@ -29,7 +29,7 @@ def bent(residuals: Array, loss: Loss) -> Array:
 
 
 def straight(counted: Array, loss: Loss) -> Array:
-    """Return the plain residuals from those that `bent` returned."""
+    """Return the plain residuals r from the r* that `bent` returned."""
     if loss == "squares":
         return counted
     size = np.abs(counted)
@@ -38,7 +38,7 @@ def straight(counted: Array, loss: Loss) -> Array:
 
 
 def slope(residuals: Array, loss: Loss) -> Array:
-    """Return the derivative of `bent`: 1 within, k / |r*| beyond."""
+    """Return the derivative of `bent`: 1 up to k, k / |r*| beyond."""
     if loss == "squares":
         return np.ones_like(residuals)
     counted = np.abs(bent(residuals, loss))
@@ -48,8 +48,8 @@ def slope(residuals: Array, loss: Loss) -> Array:
 def robust_covariance(jacobian: Array, residuals: Array) -> Array:
     """Return the covariance (p, p) of a fit with Huber's loss.
 
-    A^-1 B A^-1 n / (n - p), A = sum psi'(r) J J', B = sum psi(r)^2 J J', psi = rho' / 2
-    (Huber & Ronchetti 2009, Robust Statistics, eq. 7.81). Directions that A does not see get 1e300.
+    A^-1 B A^-1 n / (n - p), A = sum psi'(r) J J', B = sum psi(r)^2 J J', psi = rho' / 2 (Huber &
+    Ronchetti 2009, Robust Statistics, eq. 7.81). Directions that A does not determine get 1e300.
     """
     size = np.abs(residuals)
     inner = jacobian[size <= BEYOND]

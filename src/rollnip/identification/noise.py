@@ -1,4 +1,4 @@
-"""Estimates of the measurements' scatter, where their standard errors are not given."""
+"""Estimates of the scatter of measurements whose standard errors are not given."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from rollnip.identification.search import Local
 
 Array = NDArray[np.float64]
 
-_MEDIAN = 0.6745  # median of the sizes of standard normal deviates
-_GUESS = 0.02  # first guess of the errors over the root mean square of the values
+_MEDIAN = 0.6745  # median of the magnitudes of standard normal deviates
+_GUESS = 0.02  # first guess of the errors, over the root mean square of the values
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class Noise:
     ----------
     errors : (n,) standard error of each value, for each set.
     estimated : whether they were estimated, for each set.
-    degrees : degrees of freedom that the worst estimate rests on; None where none was estimated.
+    degrees : degrees of freedom of the worst estimate; None where none was estimated.
     """
 
     errors: tuple[Array, ...]
@@ -36,7 +36,7 @@ class Noise:
 
 
 def first_noise(parts: Sequence[Measurements]) -> Noise:
-    """Errors as given, and a guess where none are."""
+    """Return the errors as given, and a guess where there are none."""
     errors = tuple(
         part.errors if part.errors is not None else np.full(part.values.size, _guess(part))
         for part in parts
@@ -47,18 +47,18 @@ def first_noise(parts: Sequence[Measurements]) -> Noise:
 def estimated_noise(
     parts: Sequence[Measurements], noise: Noise, end: Local, loss: Loss = "squares"
 ) -> Noise:
-    """Errors from the residuals of each set, over its share of the degrees of freedom.
+    """Return errors from the residuals of each set, over its share of the degrees of freedom.
 
-    Each set has one error for all its values. Of the p unknowns a set of n values takes the sum
-    of its leverages, so that its variance is its sum of squares over n less that sum, and less
-    the numbers fitted within it (Foerstner 1979, variance components). With Huber's loss the
-    median of the residuals' sizes takes the place of their mean square. ``end`` holds straight
-    residuals.
+    Each set has one error for all its values. Of the p unknowns a set of n values takes the sum of
+    its leverages. Its variance is therefore its sum of squares over n minus that sum, minus the
+    number of parameters fitted within it (Foerstner 1979, variance components). With Huber's loss
+    the median of the magnitudes of the residuals takes the place of their mean square. ``end``
+    holds plain residuals, as `straightened` returns them.
 
     Raises
     ------
     InvalidInputError
-        where a set has too few values to tell its noise.
+        where a set has too few values to estimate its noise.
     """
     errors, degrees, first = list(noise.errors), [], 0
     projected = leverages(end.jacobian)
@@ -75,7 +75,7 @@ def estimated_noise(
             )
         residuals = end.residuals[rows] * errors[index] / np.sqrt(part.weight)
         size = float(np.sqrt(np.sum(residuals**2) / free))
-        if loss == "huber":  # the median does not care how far the farthest are
+        if loss == "huber":  # the median is independent of how far off the farthest values are
             share = np.sqrt(part.values.size / free)
             size = float(np.median(np.abs(residuals))) / _MEDIAN * float(share)
         # exact data, as from a simulation without noise, still carry rounding
@@ -86,13 +86,13 @@ def estimated_noise(
 
 
 def largest_change(old: Noise, new: Noise) -> float:
-    """Largest relative change of the errors of a set against those of the others."""
+    """Return the largest relative change of the ratios of the errors of sets."""
     ratios = [float(b[0] / a[0]) for a, b in zip(old.errors, new.errors, strict=True)]
     return max(ratios) / min(ratios) - 1.0
 
 
 def leverages(jacobian: Array) -> Array:
-    """Return the diagonal of the projection onto the columns; nothing for columns that vanish."""
+    """Return the diagonal of the projection onto the columns, leaving out those that vanish."""
     left, values, _ = np.linalg.svd(jacobian, full_matrices=False)
     kept = left[:, values > 1e-10 * max(float(values[0]), 1e-300)]
     return np.asarray(np.sum(kept**2, axis=1))

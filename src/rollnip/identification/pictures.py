@@ -1,4 +1,4 @@
-"""Pictures of a fit: measurements beside predictions, and what is left of them."""
+"""Plots of a fit: measurements beside predictions, and residuals."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from rollnip.identification.result import Fit, FittedSet
 from rollnip.plots.style import Look, Style, label, page, palette_of, prepare
 
 _MOST_COLUMNS = 3
-_HEIGHT = 92.0  # mm of a row
-_BAND = 2.0  # standard errors
+_HEIGHT = 92.0  # height of a row [mm]
+_BAND = 2.0  # half-width of bands and error bars, in standard errors
 
 
 def plot_fit(fit: Fit, style: Style = "light") -> Figure:
-    """Draw each set: measurements with standard errors and predictions; residuals below.
+    """Draw each set: measurements with standard errors and predictions, and residuals below.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def plot_set(
 ) -> Axes:
     """Draw the measurements of a set with two standard errors, and the predictions.
 
-    A band about the predictions, ``quantile`` standard errors each way, says how well the fitted
+    A band around the predictions, ``quantile`` standard errors each way, shows how well the fitted
     curve is known.
     """
     ax, look = prepare(ax, style)
@@ -99,7 +99,7 @@ def plot_set(
 
 
 def plot_residuals(one: FittedSet, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw measured less predicted over the standard error; the band holds 95 of 100 points."""
+    """Draw measured minus predicted over the standard error; the band holds 95 of 100 points."""
     ax, look = prepare(ax, style)
     colours = look.palette
     ax.axhspan(-_BAND, _BAND, facecolor=colours.stick, linewidth=0.0)
@@ -123,7 +123,7 @@ def _label_residuals(ax: Axes, look: Look, one: FittedSet) -> None:
 
 
 def _named(path: str) -> str:
-    """An axis for a path: its last key in words, with the base unit where it is one of [nip]."""
+    """Return the label of an axis for a path: its last key in words, with a unit if it is known."""
     figures = {
         "nip.load": FIGURES["load"],
         "nip.approach": FIGURES["approach"],

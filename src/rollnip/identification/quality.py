@@ -16,20 +16,21 @@ from rollnip.identification.search import Misfit
 
 Array = NDArray[np.float64]
 
-_LARGE = 0.05  # share of the values' root mean square; a larger misfit is reported
-_LITTLE = 0.5  # share of the variance; a fit that explains less is reported
+_LARGE = 0.05  # misfit over the root mean square of the values, above which it is reported
+_LITTLE = 0.5  # share of the variance that a fit explains, below which it is reported
 _IMPROBABLE = 0.01
-_FEWEST_RUNS = 8  # values of which residuals are looked through for runs
+_FEWEST_RUNS = 8  # fewest values whose residuals are examined for runs
 
 
 def quality_warnings(
     misfit: Misfit, jacobian: Array, residuals: Array, noise: Noise, degrees: float
 ) -> list[str]:
-    """Return what the residuals tell about the fit, whatever the standard errors.
+    """Return warnings that follow from the residuals, whatever the standard errors.
 
     Parameters
     ----------
-    jacobian, residuals : (n, p) and (n,), straight, over standard errors, priors last.
+    jacobian, residuals : (n, p) and (n,), without the loss function, over standard errors, priors
+        last.
     noise : the standard errors.
     degrees : degrees of freedom.
     """
@@ -61,13 +62,13 @@ def _no_freedom(degrees: float) -> list[str]:
 
 
 def share_of_values(part_values: Array, deviation: Array) -> float:
-    """Root mean square of the deviations over that of the values."""
+    """Return the root mean square of the deviations over that of the values."""
     size = float(np.sqrt(np.mean(part_values**2)))
     return float(np.sqrt(np.mean(deviation**2))) / size if size > 0.0 else 0.0
 
 
 def _size_words(part: Measurements, deviation: Array) -> list[str]:
-    """Return warnings where the misfit is large against the values or against their variance."""
+    """Return warnings where the misfit is large compared with the values or their variance."""
     said = []
     share = share_of_values(part.values, deviation)
     if share > _LARGE:
@@ -87,7 +88,7 @@ def _size_words(part: Measurements, deviation: Array) -> list[str]:
 
 
 def _run_words(part: Measurements, residuals: Array) -> list[str]:
-    """Return a warning where residuals keep their sign too long along the abscissa."""
+    """Return a warning where residuals keep their sign for too long along the abscissa."""
     path, at = part.abscissa
     signs = np.sign(residuals[np.argsort(at, kind="stable")])
     signs = signs[signs != 0.0]
@@ -105,12 +106,12 @@ def _run_words(part: Measurements, residuals: Array) -> list[str]:
 
 
 def _chance_of_runs(runs: int, above: int, below: int) -> float:
-    """Probability of so few runs or fewer of two signs in random order.
+    """Return the probability of at most so many runs of two signs in random order.
 
     Wald & Wolfowitz (1940), Ann. Math. Statist. 11, 147-162.
     """
     if not above or not below:
-        return 2.0 ** (1 - above - below)  # all on one side: as of a coin
+        return 2.0 ** (1 - above - below)  # all on one side, with the probability of coin tosses
     found = 0
     for number in range(2, runs + 1):
         half = number // 2
@@ -127,8 +128,9 @@ def _outlier_words(
 ) -> list[str]:
     """Return a warning on the most outlying value, where chance does not explain it.
 
-    Its residual over its own standard deviation, the scatter taken from the other values (deleted
-    residuals, Cook & Weisberg 1982); the probability is multiplied by the number of values.
+    Its distance is its residual over its own standard deviation, with the scatter taken from the
+    other values (deleted residuals, Cook & Weisberg 1982). The probability is multiplied by the
+    number of values.
     """
     free = residuals.size - part.nuisances - float(np.sum(projected))
     if free < 2.0:
@@ -167,5 +169,5 @@ def _row_words(
 
 
 def row_names(source: str, lines: Sequence[int]) -> tuple[str, ...]:
-    """Names of rows of a table, for messages."""
+    """Return names of the rows of a table, for messages."""
     return tuple(f"{source} line {line}" for line in lines)

@@ -17,12 +17,12 @@ _WARN_CORRELATION = 0.9
 
 
 def fit_report(fit: Fit, title: str = "") -> str:
-    """The fit as text: values, intervals, correlation, misfit of each set, warnings."""
+    """Return the fit as text: values, intervals, correlation, misfit of each set, warnings."""
     return "\n".join(_lines(fit, title)) + "\n"
 
 
 def fit_dict(fit: Fit) -> dict[str, Any]:
-    """The fit as a tree of finite numbers, texts and None, for JSON."""
+    """Return the fit as a tree of finite numbers, texts and None, for JSON."""
     return {
         "schema": SCHEMA,
         "unknowns": [_estimate_dict(one, fit) for one in fit.estimates],
@@ -49,7 +49,7 @@ def fit_dict(fit: Fit) -> dict[str, Any]:
 
 
 def fit_case(fit: Fit) -> str:
-    """The case with the fitted values as TOML; their intervals stand in comments before it.
+    """Return the case with the fitted values as TOML, with their intervals in comments.
 
     Raises RollnipError where the extra that writes TOML is not installed.
     """
@@ -68,9 +68,9 @@ def fit_case(fit: Fit) -> str:
 
 
 def interval_texts(one: Estimate) -> tuple[str, str]:
-    """The interval to report, as texts: the profile's where there is one.
+    """Return the interval to report, as texts: that of the profile where there is one.
 
-    An end that is only the bound is written with the sign of the inequality.
+    An end that is only the bound is written with an inequality sign.
     """
     low, high = one.interval
     digits = _decimals(one)
@@ -168,7 +168,7 @@ def _starts_line(fit: Fit) -> str:
 
 
 def _decimals(one: Estimate) -> int:
-    """Decimals that show two digits of the standard error."""
+    """Return the number of decimals that shows two digits of the standard error."""
     size = one.standard_error
     if not size > 0.0 or not one.is_told:
         return 4

@@ -1,4 +1,4 @@
-"""Frozen data of a fit's result."""
+"""The result of a fit as frozen data."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ class Estimate:
     path : path of the value in the case.
     value : the best fit.
     standard_error : from the covariance.
-    low, high : interval from the covariance, in the scale of the search, cut at the bounds.
-    log : whether the search, and so the interval, is on a logarithmic scale.
+    low, high : interval from the covariance, in the scale of the search, cut off at the bounds.
+    log : whether the search, and thus the interval, is on a logarithmic scale.
     profile : interval from the profile of the likelihood; None where none was computed.
-    open_ends : whether the lower, the upper end of ``profile`` is only the bound.
+    open_ends : whether the lower and the upper end of ``profile`` are only the bound.
     bounds : bounds of the search, lower and upper.
     bound : "low" or "high" where the best fit lies at that bound, else None.
     """
@@ -50,12 +50,12 @@ class Estimate:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The interval from the profile of the likelihood, or else from the covariance."""
+        """The interval from the profile of the likelihood if there is one, or the covariance."""
         return (self.low, self.high) if self.profile is None else self.profile
 
     @property
     def is_told(self) -> bool:
-        """True where the data determine the value: its standard error is smaller than its range."""
+        """Whether the data determine the value: its standard error is below its range."""
         return self.standard_error < self.bounds[1] - self.bounds[0]
 
 
@@ -66,7 +66,7 @@ class FittedSet(Framed, Sealed):
     Attributes
     ----------
     name, quantity, unit : name of the set, measured quantity and its unit.
-    against : path of what the values were measured at, or ``x``.
+    against : path of the condition at which the values were measured, or ``x``.
     at, measured, predicted : (n,).
     standard_error : (n,) given or estimated.
     estimated : whether it was estimated.
@@ -90,7 +90,7 @@ class FittedSet(Framed, Sealed):
     def of(
         cls, part: Measurements, predicted: Array, error: Array, estimated: bool, band: Array
     ) -> FittedSet:
-        """The set ``part`` with its predictions, standard errors and those of predictions (n,)."""
+        """Return the set ``part`` with its predictions, standard errors and prediction errors."""
         against, at = part.abscissa
         return cls(
             part.name,
@@ -120,12 +120,12 @@ class FittedSet(Framed, Sealed):
 
     @property
     def residuals(self) -> Array:
-        """(n,) measured less predicted, over the standard error."""
+        """Measured minus predicted over the standard error, (n,)."""
         return np.asarray((self.measured - self.predicted) / self.standard_error)
 
     @property
     def rms(self) -> float:
-        """Root mean square of measured less predicted, in the unit of the set."""
+        """Root mean square of measured minus predicted, in the unit of the set."""
         return float(np.sqrt(np.mean((self.measured - self.predicted) ** 2)))
 
 
@@ -150,18 +150,19 @@ class Fit(Framed, Sealed):
     sets : measurements beside predictions.
     chi_square : sum of squared residuals over squared standard errors, without weights.
     degrees : degrees of freedom.
-    probability : probability of so large a chi-square; None where standard errors were estimated.
+    probability : probability of a chi-square this large or larger; None where standard errors were
+        estimated.
     widened : factor on the intervals where chi-square is improbably large, else 1.
     confidence : confidence level of the intervals.
     quantile : standard errors from a value to the end of its interval.
-    loss : how deviations counted, "squares" or "huber".
+    loss : function of the deviations, "squares" or "huber".
     spread : (p, p) covariance of the unknowns in the scale of the search: of the logarithm where
         that is logarithmic.
     starts : the searches, best first.
-    warnings : what the fit does not tell, in plain words.
+    warnings : what the fit does not determine or explain, in plain words.
     case : the tree of the case with the fitted values.
     units : base unit of each unknown by its path.
-    model : geometry and tolerance that the nips were solved with; None where no nip was.
+    model : geometry and tolerance of the solves; None where no nip was solved.
     solves : number of nips solved.
     verified : whether all nips at the fitted values were verified.
     """
@@ -209,7 +210,7 @@ class Fit(Framed, Sealed):
     def _frame(self) -> Frame:
         """Return a row for each unknown: its value, standard error and interval.
 
-        The interval is that of the profile, where there is one.
+        The interval is that of the profile if there is one.
         """
         ends = [one.interval for one in self.estimates]
         columns: dict[str, Column] = {
@@ -228,5 +229,5 @@ class Fit(Framed, Sealed):
         return f"{one.path} = {value} ± {error} {self.units.get(one.path, '')}".rstrip()
 
     def __getitem__(self, path: str) -> Estimate:
-        """The estimate of one path."""
+        """Return the estimate of one path."""
         return next(one for one in self.estimates if one.path == path)

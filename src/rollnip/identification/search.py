@@ -1,4 +1,4 @@
-"""The least-squares search: residuals, derivatives by deliberate steps, several starts."""
+"""The least-squares search: residuals, derivatives by finite differences, several starts."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from rollnip.identification.unknowns import Unknown, inner_bounds, outer_values
 
 Array = NDArray[np.float64]
 
-# Changes of the sum of squares and of the unknowns at which the search ends: a relative change
-# of 1e-4 of a sum of squares of about n is some hundredths of a standard error.
+# Relative changes of the sum of squares and of the unknowns at which the search ends. A relative
+# change of 1e-4 in a sum of squares of about n is some hundredths of a standard error.
 _SUFFICIENT = 1e-4
 _LEAST_CHANGE = 1e-6
 _MOST_ROUNDS = 40
@@ -52,13 +52,13 @@ class Misfit:
     predictor :
         from values to predictions.
     unknowns, parts :
-        what is fitted to what.
+        what is fitted, and to what.
     errors :
         standard error of each value of each set.
     step :
         relative step of the derivatives.
     loss :
-        how residuals count.
+        function of the residuals.
     """
 
     def __init__(
@@ -79,11 +79,11 @@ class Misfit:
         return Misfit(self.predictor, self.unknowns, self.parts, errors, self.step, self.loss)
 
     def predictions(self, z: Array) -> Predictions | None:
-        """Return the predictions at the coordinates z (p,), or None where there are none."""
+        """Return the predictions at the coordinates z (p,); None where there are none."""
         return self.predictor.predict(outer_values(self.unknowns, z))
 
     def residuals(self, z: Array) -> Array:
-        """(n,) weighted residuals as they count, priors last; nan where there is no solution."""
+        """Return the residuals (n,) with weights and loss, priors last; nan without a solution."""
         found = self.predictions(z)
         if found is None:
             return np.full(self.size, np.nan)
@@ -101,23 +101,23 @@ class Misfit:
 
     @property
     def row_weights(self) -> Array:
-        """(n,) weight of the set of each residual; 1 for priors."""
+        """Weight of the set of each residual, (n,); 1 for priors."""
         rows = [np.full(part.values.size, part.weight) for part in self.parts]
         weights = np.concatenate(rows)
         return np.concatenate([weights, np.ones(self.size - weights.size)])
 
     def jacobian(self, z: Array) -> Array:
-        """(n, p) derivatives of the residuals by central differences, one-sided at a bound.
+        """Return the derivatives (n, p) by central differences, one-sided at a bound.
 
-        The solver's results carry errors of about 1e-5 to 1e-4 that change from nip to nip, so a
+        The solver's results have errors of about 1e-5 to 1e-4 that vary from nip to nip, so that a
         step near the square root of the rounding unit would return noise. With steps of 2 % of a
-        value the noise is below 1 % of a derivative of order one, and so is the curvature.
+        value the noise is below 1 % of a derivative of order one, and so is the error by curvature.
         """
         columns = [self._derivative(z, index) for index in range(z.size)]
         return np.stack(columns, axis=1)
 
     def steps(self, z: Array) -> Array:
-        """(p,) steps of the derivatives: relative on a log scale, else of value or range."""
+        """Return the steps (p,) of the derivatives: relative on a log scale, or else absolute."""
         linear = np.maximum(self.step * np.abs(z), _SHARE_OF_RANGE * (self.high - self.low))
         return np.asarray(np.where([one.log for one in self.unknowns], self.step, linear))
 
@@ -151,7 +151,7 @@ class Misfit:
 
 
 def straightened(misfit: Misfit, end: Local) -> Local:
-    """Return the end with plain residuals and derivatives, not as the loss counts them."""
+    """Return the end of a search with plain residuals and derivatives, without loss function."""
     weights = np.sqrt(misfit.row_weights)
     counted = end.residuals / weights
     residuals = _with_priors(misfit, straight(counted, misfit.loss), counted)
@@ -161,11 +161,11 @@ def straightened(misfit: Misfit, end: Local) -> Local:
 
 
 def reweighted(misfit: Misfit, end: Local, factors: Array) -> Local:
-    """Return an end with every residual and its derivatives multiplied, its cost counted again.
+    """Return an end of a search with residuals and derivatives multiplied by factors.
 
     Parameters
     ----------
-    end : straight, as `straightened` returns it.
+    end : plain, as `straightened` returns it.
     factors : (n,) of the rows.
     """
     weights = np.sqrt(misfit.row_weights)
@@ -177,15 +177,15 @@ def reweighted(misfit: Misfit, end: Local, factors: Array) -> Local:
 
 
 def _with_priors(misfit: Misfit, data: Array, priors: Array) -> Array:
-    """Return the rows of the data from ``data`` and those of the priors from ``priors``."""
+    """Return the rows of the data from ``data``, and those of the priors from ``priors``."""
     count = sum(part.values.size for part in misfit.parts)
     return np.concatenate([data[:count], priors[count:]])
 
 
 def local_search(misfit: Misfit, begin: Array) -> Local:
-    """Least squares from one start, with scipy's trust-region method within the bounds.
+    """Return a least-squares fit from one start, by scipy's trust-region method within bounds.
 
-    Raises InvalidInputError where there is no solution at the start, or about it.
+    Raises InvalidInputError where there is no solution at the start, or around it.
     """
     inside = 1e-6 * (misfit.high - misfit.low)
     begin = np.clip(begin, misfit.low + inside, misfit.high - inside)
@@ -213,9 +213,9 @@ def local_search(misfit: Misfit, begin: Array) -> Local:
 
 
 def several_starts(misfit: Misfit, tried: int, followed: int) -> list[Local]:
-    """Searches from the given start and from the best of ``tried`` others, best first.
+    """Return searches from the given start and the best of ``tried`` others, best first.
 
-    The others are a Latin hypercube of fixed seed over the bounds: the same every time.
+    The others are a Latin hypercube over the bounds with a fixed seed, the same every time.
     """
     first = np.array([one.inner(one.first) for one in misfit.unknowns])
     points = [first]
@@ -233,7 +233,7 @@ def several_starts(misfit: Misfit, tried: int, followed: int) -> list[Local]:
 
 
 def _hypercube(count: int, size: int) -> Array:
-    """A Latin hypercube (count, size) in [0, 1]: each column has one point in each slice."""
+    """Return a Latin hypercube (count, size) in [0, 1]: one point of a column in each slice."""
     rng = np.random.default_rng(0)
     slices = np.stack([rng.permutation(count) for _ in range(size)], axis=1)
     return np.asarray((slices + rng.random((count, size))) / count)

@@ -1,4 +1,4 @@
-"""The reader of a fit's file: unknowns and measurements; every fault is one clear line."""
+"""The reader of a fit's file: unknowns and measurements; every error is one clear line."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ _SCALARS: dict[str, tuple[type[Scalars], Dimension]] = {
     "rolling-resistance": (RollingResistances, "ratio"),
     "feed": (Feeds, "ratio"),
 }
-_POSITIVE = ("nip-width", "load", "peak-pressure")  # of a pressed nip, whatever the noise
+_POSITIVE = ("nip-width", "load", "peak-pressure")  # positive in any nip, whatever the noise
 _SHORT = ("load", "approach", "traction", "creepage", "torque_lower", "friction", "speed")
 
 
 @dataclass(frozen=True, slots=True)
 class FitStudy:
-    """The question of a fit's file, as `identify` takes it.
+    """The contents of a fit's file, as arguments of `identify`.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class FitStudy:
     case : the tree of the case.
     unknowns : what is to be found.
     cost : the measurements.
-    method : how.
+    method : the settings of the fit.
     """
 
     title: str
@@ -75,12 +75,12 @@ class FitStudy:
 def read_fit(path: str | Path) -> FitStudy:
     """Read a file that describes a fit, TOML or JSON.
 
-    Names of other files in it count from its folder.
+    Names of other files in it are relative to its folder.
 
     Raises
     ------
     CaseFileError
-        where the file, or the case it names, cannot be read or understood.
+        where the file, or the case that it names, cannot be read or understood.
     InvalidInputError
         where a table of measurements is wrong, with file, line and column.
     """
@@ -203,7 +203,7 @@ class _FitReader:
             )
 
     def _require_on_face(self, columns: TableColumns, y: NDArray[np.float64]) -> None:
-        """Raise where a place lies outside the face of the case."""
+        """Raise InvalidInputError where a place lies outside the face of the case."""
         with self._placed("case: face.length"):
             half = 0.5 * parse_quantity(
                 self.case["face"].get("length", inf), "length", infinite=True
@@ -258,7 +258,7 @@ class _FitReader:
     def _conditions(
         self, columns: TableColumns, known: set[str], *, allowed: bool = True
     ) -> dict[str, Any]:
-        """All other columns: values of the case by path, short names for those of [nip]."""
+        """Return all other columns as values of the case by path; those in [nip] may be short."""
         found: dict[str, Any] = {}
         for name in columns.names:
             if name in known:
@@ -304,7 +304,7 @@ def _require_positive(columns: TableColumns, name: str, values: NDArray[np.float
 
 
 def _difference(value: Any, dimension: Dimension) -> float:
-    """A standard error: of temperatures a difference, whose unit has no offset."""
+    """Return a standard error; for temperatures it is a difference, whose unit has no offset."""
     kind: Dimension = "temperature difference" if dimension == "temperature" else dimension
     error = parse_quantity(value, kind)
     if not 0.0 < error < np.inf:

@@ -1,4 +1,4 @@
-"""Measurements along a surface: strains and velocities of one nip."""
+"""Measurements along the surface of a roller: strains and velocities in one nip."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class SurfaceMeasurements(Measurements):
     Parameters
     ----------
     roller :
-        "upper" or "lower": whose surface.
+        "upper" or "lower", the roller whose surface was measured.
     width :
         standard deviation of the averaging along x by the instrument [mm].
     at :
-        single values only: all places are in one nip.
+        single values only, since all places are in one nip.
     measured, standard_error, weight, name :
         see `Measurements`.
     """
@@ -83,7 +83,10 @@ class Strains(SurfaceMeasurements):
         return "x", np.asarray(self.x, dtype=float)
 
     def predict(self, solutions: Sequence[Solution]) -> Array:
-        """The strain of the solution there. Raises InvalidInputError outside of it."""
+        """Return the strain of the solution at the places.
+
+        Raises InvalidInputError where a place lies outside the solution.
+        """
         profiles = solutions[0].profiles
         strain = profiles.strain_upper if self.roller == "upper" else profiles.strain_lower
         curve = SpeedProfile(profiles.x, strain)
@@ -94,13 +97,13 @@ class Strains(SurfaceMeasurements):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Velocities(SurfaceMeasurements):
-    """A velocity profile of laser-Doppler anemometry; shift and roller speed are fitted with it.
+    """A velocity profile by laser-Doppler anemometry; shift and roller speed are fitted with it.
 
     Parameters
     ----------
     profile :
-        from `rollnip.lda.estimate_profile` or `rollnip.lda.profile_from_means`; its velocities
-        and their standard errors are the measurements.
+        from `rollnip.lda.estimate_profile` or `rollnip.lda.profile_from_means`; its velocities and
+        their standard errors are the measurements.
     at, weight, name, roller, width :
         see `SurfaceMeasurements`; ``measured`` and ``standard_error`` come from the profile.
     """
@@ -118,7 +121,7 @@ class Velocities(SurfaceMeasurements):
         super().__post_init__()
 
     def with_values(self, measured: ArrayLike) -> Self:
-        """Return the profile's places with other measured velocities."""
+        """Return the same places with other measured velocities."""
         return replace(self, profile=replace(self.profile, velocity=np.asarray(measured, float)))
 
     @property
@@ -127,7 +130,7 @@ class Velocities(SurfaceMeasurements):
         return "x", self.profile.x
 
     def predict(self, solutions: Sequence[Solution]) -> Array:
-        """V (1 + strain) at the places, shift and V those of least squares.
+        """Return V (1 + strain) at the places, with shift and V by least squares.
 
         Raises InvalidInputError where the profile cannot be aligned with the solution.
         """

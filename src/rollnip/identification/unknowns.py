@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Prior:
-    """Prior knowledge of an unknown: it counts as one more measurement of it.
+    """Prior knowledge of an unknown, which counts as one more measurement of it.
 
     Parameters
     ----------
@@ -45,16 +45,16 @@ class Unknown:
     Parameters
     ----------
     path :
-        where it stands in the case: ``materials.cover.modulus``, ``nip.friction``.
+        its path in the case: ``materials.cover.modulus``, ``nip.friction``.
     low, high :
-        bounds, in base units; the fit does not leave them.
+        bounds of the fit, in base units.
     start :
-        first guess; the middle of the bounds by default, on a log scale the geometric one.
+        first guess; the middle of the bounds by default, on a log scale the geometric mean.
     log :
-        whether to search on a logarithmic scale: for what is positive and known only to its
-        order of magnitude, such as a modulus or a relaxation time.
+        whether to search on a logarithmic scale. This suits positive values of which only the order
+        of magnitude is known, such as a modulus or a relaxation time.
     prior :
-        what is known of it otherwise.
+        what else is known about it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Influence functions: from compliances in the Fourier domain to displacements on a mesh."""
+"""Influence functions: from compliances C(k) in the Fourier domain to displacements on a mesh."""
 
 from rollnip.influence.cache import KernelCache
 from rollnip.influence.ellipse import Ellipses

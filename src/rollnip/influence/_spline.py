@@ -1,6 +1,6 @@
 """Cubic splines on an even grid.
 
-Those of scipy do the same; to import them takes longer than to solve a nip.
+scipy has the same splines, but importing them takes longer than solving a nip.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class EvenSpline:
-    """A piecewise cubic function on cells of one length.
+    """A piecewise cubic function on cells of equal length.
 
     Attributes
     ----------
     start, step : first point and spacing of the grid.
-    coefficients : (4, cells) of the powers 3 to 0 of the fraction of a cell; the first and the
-        last cell go on beyond the grid.
+    coefficients : (4, cells) coefficients of the powers 3 to 0 of the fraction of a cell; the first
+        and the last cell extend beyond the grid.
     """
 
     start: float
@@ -30,7 +30,7 @@ class EvenSpline:
     coefficients: Array
 
     def __call__(self, x: Array, order: int = 0) -> Array:
-        """Value at ``x``, of its shape, or with ``order`` 1 its derivative."""
+        """Return the value at ``x``, of its shape; with ``order`` 1, the derivative."""
         (a, b, c, d), t = self._cells(x)
         if order == 0:
             return np.asarray(((a * t + b) * t + c) * t + d)
@@ -38,7 +38,7 @@ class EvenSpline:
         return np.asarray(((3.0 * a * t + 2.0 * b) * t + c) / self.step)
 
     def _cells(self, x: Array) -> tuple[Array, Array]:
-        """Coefficients of the cell of each place, (4, ...), and the fraction of it."""
+        """Return the coefficients (4, ...) of each place's cell, and the fraction of the cell."""
         place = (x - self.start) / self.step
         last = self.coefficients.shape[1] - 1
         cell = np.minimum(np.maximum(place.astype(np.intp), 0), last)
@@ -46,9 +46,10 @@ class EvenSpline:
 
 
 def even_splines(x: Array, values: Array) -> tuple[EvenSpline, ...]:
-    """Cubic splines (not-a-knot) of the rows of ``values`` (m, n) on an even grid x, n >= 4."""
+    """Return the not-a-knot cubic splines of rows ``values`` (m, n) on an even grid x, n >= 4."""
     rise = values[:, 1:] - values[:, :-1]
-    # The slopes at all points; the equations at both ends are halved, which makes them symmetric.
+    # Unknowns are the slopes at all points. Halving the equations at both ends makes the matrix
+    # symmetric.
     diagonal, beside = np.full(x.size, 4.0), np.ones(x.size - 1)
     diagonal[0] = diagonal[-1] = 0.5
     right = np.empty(values.shape)

@@ -2,17 +2,17 @@
 
 The paper (Braat & Kalker 1993, figure 2) transforms a compliance C(w) back to space on a
 non-equidistant mesh of wave numbers: a polynomial through each element, integrated exactly against
-the oscillation e^{iwx}. Here the elements grow in a geometric series and the points x do too, so
-that the weights depend on the product w x alone: they are computed once and are then the same for
-all sizes, materials, thicknesses and speeds. Those of a panel are those of the one before, for x
-further on in the series. The degree of the polynomial is free; 2 is the paper's.
+the oscillation e^{iwx}. Here both the elements (panels) and the points x grow in a geometric
+series, so that the weights depend on the product w x alone. They are computed once and hold for all
+sizes, materials, thicknesses and speeds. The weights of a panel are those of the panel before it,
+for x one step further in the series. The degree of the polynomial is free; the paper's is 2.
 
 Three quantities are wanted at each x, F_r(x) = (1/pi) int_0^inf Re[C(w) m_r(w x)] dw with
 
-    m_0(y) = e^{iy},   m_1(y) = (e^{iy} - 1)/(iy),   m_2(y) = 2 (e^{iy} - 1 - iy)/(iy)^2:
+    m_0(y) = e^{iy},   m_1(y) = (e^{iy} - 1)/(iy),   m_2(y) = 2 (e^{iy} - 1 - iy)/(iy)^2.
 
-F_0 is the influence function G, F_1 its mean over [0, x] and F_2 = (2/x^2) int_0^x t F_1(t) dt:
-F_1 x and F_2 x^2/2 are the first and the second integral of G.
+F_0 is the influence function G, F_1 its mean over [0, x], and F_2 = (2/x^2) int_0^x t F_1(t) dt.
+The first integral of G is therefore F_1 x, the second F_2 x^2/2.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 def multipliers(phase: Array) -> ComplexArray:
-    """m_0, m_1 and m_2 at real phases y > 0; shape (3, ...)."""
+    """Return m_0, m_1 and m_2 at real phases y > 0, shape (3, ...)."""
     y = np.asarray(phase, dtype=float)
     out = np.empty((3, *y.shape), dtype=complex)
     out[0] = np.exp(1j * y)
@@ -44,7 +44,7 @@ def multipliers(phase: Array) -> ComplexArray:
 
 
 def _second_multiplier_series(y: Array) -> ComplexArray:
-    """m_2 by its power series 2 sum (iy)^n/(n+2)!, y < 1."""
+    """Return m_2 by its power series 2 sum (iy)^n/(n+2)!, for y < 1."""
     total = np.ones(y.shape, dtype=complex)
     for n in range(17, 2, -1):  # Horner; the first term left out is y^16 * 2/18! < 1e-15
         total = 1.0 + total * (1j * y) / n
@@ -52,10 +52,10 @@ def _second_multiplier_series(y: Array) -> ComplexArray:
 
 
 def tail(phase: Array) -> ComplexArray:
-    """T_r(y) = int_1^inf m_r(y v)/v dv, r = 0, 1, 2; shape (3, ...).
+    """Return T_r(y) = int_1^inf m_r(y v)/v dv, r = 0, 1, 2; shape (3, ...).
 
-    The part [w_c, inf) of the transform of C = A/w is A T_r(w_c x)/pi. T_0 = E_1(-iy), then by
-    parts T_1 = T_0 + m_1 and T_2 = T_1 + m_2/2.
+    The part [w_c, inf) of the transform of C = A/w is A T_r(w_c x)/pi. T_0 is E_1(-iy); integration
+    by parts gives T_1 = T_0 + m_1 and T_2 = T_1 + m_2/2.
     """
     m = multipliers(phase)
     sine, cosine = sici(phase)
@@ -64,11 +64,11 @@ def tail(phase: Array) -> ComplexArray:
 
 
 def head(phase: Array) -> ComplexArray:
-    """L_r(y) = int_0^1 (m_r(y v) - 1)/v dv, r = 0, 1, 2; shape (3, ...).
+    """Return L_r(y) = int_0^1 (m_r(y v) - 1)/v dv, r = 0, 1, 2; shape (3, ...).
 
     The part [0, w_0] of the transform of C = A/w is A L_r(w_0 x)/pi once the infinite constant
-    int_0^{w_0} A/w dw is left out (a half-space has no finite plane-strain displacement).
-    L_0 = -Cin + i Si, then L_1 = L_0 - m_1 + 1 and L_2 = L_1 - m_2/2 + 1/2.
+    int_0^{w_0} A/w dw is left out (a half-space has no finite plane-strain displacement). L_0 =
+    -Cin + i Si; then L_1 = L_0 - m_1 + 1 and L_2 = L_1 - m_2/2 + 1/2.
     """
     y = np.asarray(phase, dtype=float)
     m = multipliers(y)
@@ -81,7 +81,7 @@ def head(phase: Array) -> ComplexArray:
 
 @lru_cache(maxsize=8)
 def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
-    """Return nodes t in [-1, 1], weights, and the matrix to Legendre coefficients from values."""
+    """Return nodes t in [-1, 1], weights, and the matrix from values to Legendre coefficients."""
     t, weight = np.polynomial.legendre.leggauss(nodes)
     vandermonde = np.polynomial.legendre.legvander(t, nodes - 1)
     return np.asarray(t), np.asarray(weight), np.asarray(np.linalg.inv(vandermonde))
@@ -90,12 +90,12 @@ def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
 def unit_panel_weights(
     first: int, last: int, points_per_octave: int, panels_per_octave: int, nodes: int
 ) -> ComplexArray:
-    """Return weights of the panel [1, 2^(1/panels_per_octave)] for x = 2^(s/points_per_octave).
+    """Return the weights of the panel [1, 2^(1/panels_per_octave)] for x = 2^(s/points_per_octave).
 
     Returns
     -------
-    (3, last - first + 1, nodes) complex array, s = first ... last: sum(weights * C(nodes)) is
-    int C(w) m_r(w x) dw over the panel, exact where C (times w^-r) is a polynomial of degree
+    (3, last - first + 1, nodes) complex array, s = first ... last: sum(weights * C(nodes)) is int
+    C(w) m_r(w x) dw over the panel. It is exact where C (times w^-r) is a polynomial of degree
     nodes - 1.
     """
     x = 2.0 ** (np.arange(first, last + 1) / points_per_octave)
@@ -132,17 +132,17 @@ def inverse_transform(
     per_octave: tuple[int, int],
     nodes: int,
 ) -> Array:
-    """Return F_0, F_1 and F_2 on either side, (3, points, compliances, 2): at x_j and at -x_j.
+    """Return F_0, F_1 and F_2 at x_j and at -x_j, (3, points, compliances, 2).
 
     Parameters
     ----------
     samples :
-        (compliances, n): C on the panel from 0 to w_0 less its limit A_c/w, C on all further
-        panels, then A_c and A = w_c C(w_c).
+        (compliances, n): on the panel from 0 to w_0, C less its limit A_c/w; on all further panels,
+        C; then A_c and A = w_c C(w_c).
     octaves :
         the panels cover w_0 = 2^octaves[0] ... w_c = 2^octaves[1] [1/mm].
     points :
-        x runs over 2^points[0] ... 2^points[1] mm, in octaves too.
+        x runs over 2^points[0] ... 2^points[1] mm; these are octaves, too.
     per_octave :
         (n, s): points and panels per octave, n a multiple of s.
     nodes :
@@ -150,24 +150,25 @@ def inverse_transform(
     """
     relative = points[0] + octaves[0], points[1] - points[0], octaves[1] - octaves[0]
     weights = _weights(*relative, *per_octave, nodes)
-    growth = 2.0 ** octaves[0] / pi * samples  # 1/pi and the sizes of panels
+    growth = 2.0 ** octaves[0] / pi * samples  # 1/pi and the lengths of panels
     growth[:, nodes:-2].reshape(len(samples), -1, nodes)[...] *= weights.sizes[:, None]
     growth[:, -2:] = samples[:, -2:] / pi
     even, odd = weights.even.sums(growth.real), weights.odd.sums(growth.imag)
-    # The constant of a half-space counts wave numbers above 1/mm, whatever w_0 is.
+    # The constant of a half-space includes wave numbers above 1/mm, whatever w_0 is.
     even += (octaves[0] * log(2.0)) * growth[:, -2, None, None].real
     return np.stack([even - odd, even + odd], axis=-1).transpose(1, 2, 0, 3)
 
 
 class _PanelWeights(NamedTuple):
-    """Weights of the real or the imaginary parts of samples, for the first w_0 of `_weights`.
+    """Weights of the real or the imaginary parts of samples, where w_0 is 1 (see `_weights`).
 
     Attributes
     ----------
     lowest : (nodes, 3 points) on the panel from 0 to w_0.
-    panel : (nodes, 3, more points) on the panel at w_0, for the x of this and of all further ones.
+    panel : (nodes, 3, more points) on the panel at w_0, for the x of this panel and of all further
+        ones.
     ends : (2, 3 points) of A_c and of A.
-    step : points by which panels follow each other.
+    step : number of points from one panel to the next.
     """
 
     lowest: Array
@@ -176,7 +177,7 @@ class _PanelWeights(NamedTuple):
     step: int
 
     def sums(self, samples: Array) -> Array:
-        """Return sums over the samples (compliances, n), (compliances, 3, points)."""
+        """Return the weighted sums of the samples (compliances, n), (compliances, 3, points)."""
         nodes, _, more = self.panel.shape
         points = self.ends.shape[1] // 3
         out = np.zeros((len(samples), 3, points))
@@ -195,7 +196,7 @@ class _PanelWeights(NamedTuple):
 
 
 class _TransformWeights(NamedTuple):
-    """Weights of real and of imaginary parts, and the sizes of the panels over w_0."""
+    """Weights of real and of imaginary parts, and the lengths of the panels over w_0."""
 
     even: _PanelWeights
     odd: _PanelWeights
@@ -204,7 +205,7 @@ class _TransformWeights(NamedTuple):
 
 @lru_cache(maxsize=16)
 def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -> _TransformWeights:
-    """Return the weights of x = 2^(first + j/n) up to so many octaves of lengths, for w_0 = 1."""
+    """Return the weights for x = 2^(first + j/n) over ``lengths`` octaves, where w_0 = 1."""
     phases = 2.0 ** (first + np.arange(lengths * n + 1) / n)
     t, gauss, _ = gauss_legendre(nodes)
     lowest = 0.5 * gauss * multipliers(np.multiply.outer(phases, 0.5 * (1.0 + t)))
@@ -223,13 +224,13 @@ def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -
 
 
 def _contiguous(values: ComplexArray, part: str) -> Array:
-    """Return the real or the imaginary part of some values."""
+    """Return the real or the imaginary part of values, as a contiguous array."""
     return np.ascontiguousarray(getattr(values, part))
 
 
 @lru_cache(maxsize=8)
 def sample_points(octaves: tuple[int, int], panels_per_octave: int, nodes: int) -> Array:
-    """Wave numbers [1/mm] of the lowest panel, of all others, and w_c; in increasing order."""
+    """Return the wave numbers [1/mm] of the lowest panel, all others, and w_c, in rising order."""
     t, _, _ = gauss_legendre(nodes)
     i = np.arange(octaves[0] * panels_per_octave, octaves[1] * panels_per_octave)
     growth = 2.0 ** (1.0 / panels_per_octave) - 1.0

@@ -1,4 +1,4 @@
-"""Influence functions that have been tabulated before."""
+"""A cache of tabulated influence functions."""
 
 from __future__ import annotations
 
@@ -18,22 +18,23 @@ _Table = TypeVar("_Table")
 
 
 class KernelCache:
-    """Cache of the influence functions of coverings, for solves that change only their loading.
+    """Cache of the influence functions of coverings, for solves that change only the loading.
 
-    They depend on the layers and the core, on the speed where something is viscoelastic, on the
-    radius where the layers are rings, and on the lengths the table covers; not on load, traction,
-    friction or the other roller's covering. The second order of `geometry = "second"` has tables
-    of its own, which serve contacts of about the same size: within a fifth. A result is the same
-    to the last bit with a cache and without. Pass one object to several `rollnip.solve`; the
-    oldest tables go first. It may be used by several threads; between processes it is not shared.
+    Influence functions depend on the layers and the core, on the speed where a material is
+    viscoelastic, on the radius where the layers are rings, and on the lengths that the table
+    covers. They do not depend on load, traction, friction or the other roller's covering. The
+    second order of `geometry = "second"` has tables of its own, which serve contacts of about the
+    same size, within a fifth. A result is the same to the last bit with a cache and without one.
+    Pass one object to several calls of `rollnip.solve`; the tables unused for longest are dropped
+    first. Several threads may use one cache; processes cannot share it.
 
     Parameters
     ----------
     most :
-        linear tables kept, one for each covering; each is some 100 kB. What belongs to a pair of
-        coverings is kept for as many pairs, as much for each. Of the second order a
-        quarter as many are kept, but at least two; each is 0.1 to 2 MB, 10 MB where a viscoelastic
-        covering is many times thicker than the nip is wide.
+        number of linear tables kept, one for each covering; each takes some 100 kB. As many entries
+        are kept for pairs of coverings, each of about the same size. A quarter as many tables of
+        second order are kept, but at least two; each takes 0.1 to 2 MB, or 10 MB where a
+        viscoelastic covering is many times thicker than the nip is wide.
 
     Raises
     ------
@@ -50,13 +51,16 @@ class KernelCache:
         self._pairs: OrderedDict[_Key, object] = OrderedDict()
 
     def __len__(self) -> int:
-        """Return the number of tables that are kept, pairs not counted."""
+        """Return the number of tables kept, without the entries for pairs."""
         return len(self._tables) + len(self._second)
 
     def surface(
         self, roller: Roller, speed: float | None, geometry: str, window: Window
     ) -> SurfaceKernels:
-        """Influence functions of a roller that is not a bare rigid one; see `surface_kernels`."""
+        """Return the influence functions of a roller with layers or a half-space core.
+
+        See `surface_kernels`.
+        """
         key: _Key = (
             roller.layers,
             roller.core,
@@ -68,7 +72,7 @@ class KernelCache:
         return _kept(self._tables, key, make, self.most)
 
     def second(self, roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
-        """Second-order response of a roller with layers on a rigid core.
+        """Return the second-order response of a roller with layers on a rigid core.
 
         Parameters
         ----------
@@ -77,7 +81,8 @@ class KernelCache:
         speed :
             rolling speed V [mm/s]; may be None where all materials are elastic.
         half_width :
-            of the contact, roughly [mm]: it sets the grid, and what is too short to count.
+            half the nip width, roughly [mm]: it sets the grid, and the wavelengths that are left
+            out.
         """
         size = table_size(roller, half_width)
         key: _Key = (roller.layers, roller.radius, _speed_that_counts(roller, speed), size)
@@ -101,7 +106,7 @@ class KernelCache:
             (lower.layers, lower.core, lower.radius, _speed_that_counts(lower, speed)),
             kind,
         )
-        # The value of a key always comes from the same function.
+        # A key belongs to one function, so that its value has that function's type.
         return cast(_Table, _kept(self._pairs, key, make, self.most))
 
 
@@ -113,7 +118,7 @@ def _speed_that_counts(roller: Roller, speed: float | None) -> float | None:
 def _kept(
     tables: OrderedDict[_Key, _Table], key: _Key, make: Callable[[], _Table], most: int
 ) -> _Table:
-    """Return the table of a key, made where it is not kept; the oldest beyond ``most`` go."""
+    """Return the table of a key, computed if it is not kept; drop the oldest beyond ``most``."""
     table = tables.pop(key, None)
     if table is None:
         table = make()

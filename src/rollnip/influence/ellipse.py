@@ -1,4 +1,4 @@
-"""Displacement under elliptic pressures: as Hertz's, over half-widths of every size."""
+"""Displacement under elliptic pressures such as Hertz's, for half-widths of every size."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rollnip.influence.kernel import MOST_OCTAVES, Kernel
 
 Array = NDArray[np.float64]
 
-_PIECES = 24  # straight ones, of an ellipse: Hertz's half-width comes out to 4e-5
+_PIECES = 24  # straight pieces of an ellipse; Hertz's half-width is then right to 4e-5
 
 
 @dataclass(frozen=True, slots=True)
 class Ellipses:
-    """Displacement at the centre and the edge under p = sqrt(1 - x^2/a^2), for many a.
+    """Displacement at the centre and at the edge under p = sqrt(1 - x^2/a^2), for many a.
 
     Attributes
     ----------
@@ -30,9 +30,9 @@ class Ellipses:
 
     @classmethod
     def under(cls, kernel: Kernel, longest: float) -> Ellipses:
-        """Tabulate an influence function's displacements for half-widths up to ``longest`` [mm].
+        """Tabulate the displacements for half-widths up to ``longest`` [mm].
 
-        There is one in each octave down to the shortest length that any table covers.
+        There is one half-width in each octave, down to the shortest length that any table covers.
         """
         octaves = np.arange(0.0, np.log2(kernel.reach / longest) - MOST_OCTAVES, -1.0)
         half_width = longest * 2.0 ** octaves[::-1]

@@ -1,9 +1,9 @@
-"""Influence coefficients on a uniform grid: one number for each distance between two nodes.
+"""Influence coefficients on a uniform grid, one for each distance between two nodes.
 
-A hat function is a constant convolved with itself, so the displacement under a hat is the second
-difference of the double integral of G. Far from the hat that difference cancels digits away; there
-G itself, averaged over the hat, is taken: int G(x - s) hat(s) ds = h (G(x - h) + 10 G(x) + G(x + h)
-)/12 - h^5 G''''(x)/240 + ... (the same weights as in Numerov's method).
+A hat function is a constant convolved with itself, so that the displacement under a hat is the
+second difference of the double integral of G. Far from the hat this difference loses digits by
+cancellation. There G itself is averaged over the hat: int G(x - s) hat(s) ds = h (G(x - h) + 10
+G(x) + G(x + h))/12 - h^5 G''''(x)/240 + ..., with the weights of Numerov's method.
 """
 
 from __future__ import annotations
@@ -22,26 +22,27 @@ Array = NDArray[np.float64]
 def _near_nodes(kernel: Kernel) -> float:
     """Return the number of spacings within which second differences are taken.
 
-    At n spacings both ways err alike. The average misses 6/240 n^-4 of G, which goes as ln x. The
-    differences miss n^2 times what the table misses, a polynomial of degree 5 through values,
-    slopes and second derivatives at steps h of ln x: h^6/(2^6 6!) of it.
+    At n spacings both formulas have the same error. The average misses 6/240 n^-4 of G, which
+    varies as ln x. The differences miss n^2 times the error of the table, a polynomial of degree 5
+    through values, slopes and second derivatives at steps h of ln x: h^6/(2^6 6!) of it.
     """
     step = log(2.0) / kernel.points_per_octave
     return float((6.0 / 240.0 * 2.0**6 * factorial(6)) ** (1.0 / 6.0) / step)
 
 
 def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
-    """Displacement per unit hat, at distances -(count-1) ... count-1 spacings from its top.
+    """Return the displacement per unit hat at distances -(count-1) ... count-1 spacings.
 
     Parameters
     ----------
-    kernel : influence function of one channel.
-    spacing : of the grid, half the width of a hat [mm].
-    count : nodes of the grid.
+    kernel : influence function, one channel.
+    spacing : spacing of the grid, half the width of a hat [mm].
+    count : number of nodes of the grid.
 
     Returns
     -------
-    (2 count - 1,) [mm/MPa], nothing but the convolution kernel of `displacement_matrix`.
+    (2 count - 1,) [mm/MPa]: the convolution kernel for which `displacement_matrix` is the full
+    matrix.
     """
     value = kernel.value
 
@@ -52,10 +53,10 @@ def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
 
 
 def grid_strains(kernel: Kernel, spacing: float, count: int) -> Array:
-    """Derivative of `grid_displacements` along x, (2 count - 1,) [1/MPa].
+    """Return the derivative of `grid_displacements` along x, (2 count - 1,) [1/MPa].
 
-    Near the hat the second difference of the integral of G; far from it the difference of two
-    means of G over a spacing, each by Simpson's rule.
+    Near the hat it is the second difference of the integral of G. Far from it, it is the difference
+    of two means of G over a spacing, each by Simpson's rule.
     """
     value, half = kernel.value, 0.5 * spacing
 
@@ -73,7 +74,7 @@ def _over_distances(
     integral: Callable[[Array], Array],
     far: Callable[[Array], Array],
 ) -> Array:
-    """Return second differences of an integral near the hat, and ``far`` far from it."""
+    """Return second differences of an integral near the hat, and ``far`` away from it."""
     step = np.arange(1.0 - count, count)
     x, is_near = spacing * step, np.abs(step) <= _near_nodes(kernel)
     near = x[is_near]

@@ -2,8 +2,9 @@
 
 A traction is a sum of hat functions on nodes x_0 < ... < x_N, zero at both ends: hat j (1 ... N-1)
 is 1 at x_j and 0 at the other nodes. Two integrations by parts turn int G(x - s) hat(s) ds into
-differences of the double integral of G at the nodes, exact for any spacing but for rounding. Over
-short elements far away two Gauss points of the single integral take their place.
+differences of the double integral of G at the nodes. They are exact for any spacing, up to
+rounding. For short elements far away, two Gauss points of the single integral replace the
+differences.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
-    """Displacement at ``x`` (m,) per hat on ``nodes`` (N+1,); (m, N-1) [mm/MPa].
+    """Return the displacement at ``x`` (m,) per hat on ``nodes`` (N+1,); (m, N-1) [mm/MPa].
 
     A kernel with channels gives (channels, m, N-1).
     """
@@ -33,7 +34,7 @@ def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
 
 def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
-    """Derivative of the displacement at ``x`` (m,) per hat; (m, N-1) [1/MPa].
+    """Return the derivative of the displacement at ``x`` (m,) per hat; (m, N-1) [1/MPa].
 
     A kernel with channels gives (channels, m, N-1).
     """
@@ -41,20 +42,20 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
 
 def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array) -> Array:
-    """Displacement at ``x`` (m,) under ``tractions`` (N-1, s), s sets of values at nodes[1:-1].
+    """Return the displacement at ``x`` (m,) under tractions (N-1, s) at nodes[1:-1], (m, s) [mm].
 
-    What `displacement_matrix` times the tractions gives, without the matrix: (m, s) [mm]; of a
-    kernel with channels (channels, m, s).
+    The s columns are independent sets of tractions. The result is `displacement_matrix` times the
+    tractions, without forming the matrix. A kernel with channels gives (channels, m, s).
     """
     lengths = nodes[1:] - nodes[:-1]
     slopes = _steps(tractions) / lengths[:, None]
     furthest = kernel.reach_of_differences * lengths
-    furthest[[0, -1]] = inf  # they only end the mesh
-    # Where no element is far from any place, changes of slope at the nodes save a difference.
+    furthest[[0, -1]] = inf  # the outermost elements only end the mesh
+    # Where no element is far from any place, changes of slope at the nodes save one difference.
     is_near = _reach(x, nodes) <= furthest.min()
     parts = _steps(slopes) if is_near else slopes
-    # Some at a time: their values stay in the processor's cache, and sets that are each of a few
-    # neighbours make a band.
+    # In blocks, whose values fit the processor's cache. Where each set of tractions has few nonzero
+    # neighbours, a block needs a few of the columns only.
     channels = kernel.coefficients[0, 0].size
     out = np.zeros((slopes.shape[1], x.size * channels))
     block = max(2**15 // out.shape[1], 1)
@@ -74,15 +75,13 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
 
 
 def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Array:
-    """Return the displacement at ``x`` per slope of the traction over each element [mm^2/MPa].
+    """Return the displacement at ``x`` (m,) per slope of the traction over each element [mm^2/MPa].
 
-    x (m,), nodes (N + 1,): (N, m).
+    It is the difference of the double integral at both ends of the element, that is, the integral
+    of the single one over it. For places farther away than ``furthest`` (N,), two Gauss points of
+    the single integral are used instead.
 
-    That is the difference of the double integral at both ends of the element, which is the integral
-    of the single one over it. From distances ``furthest`` (N,) on, two Gauss points of the single
-    integral take its place.
-
-    A kernel with channels gives (N, m, channels).
+    For nodes (N+1,) the result is (N, m); a kernel with channels gives (N, m, channels).
     """
     values = kernel.double_integral(x - nodes[:, None])
     out = values[:-1] - values[1:]
@@ -98,7 +97,7 @@ def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Ar
 
 
 def _steps(values: Array) -> Array:
-    """Return the changes from row to row, with zeros before the first and behind the last."""
+    """Return the differences from row to row, with zeros before the first and after the last."""
     padded = np.zeros((len(values) + 2, values.shape[1]))
     padded[1:-1] = values
     return np.asarray(padded[1:] - padded[:-1])
@@ -110,19 +109,19 @@ def _reach(x: Array, nodes: Array) -> float:
 
 
 def load_weights(nodes: Array) -> Array:
-    """Load of each hat, int hat dx, shape (N-1,) [mm]."""
+    """Return the load of each hat, int hat dx, (N-1,) [mm]."""
     return 0.5 * (nodes[2:] - nodes[:-2])
 
 
 def _kinks(values: Array, nodes: Array, count: int) -> Array:
-    """Combine values at the nodes (m, N+1, ...) into hats: a hat is three changes of slope.
+    """Return the values per hat from values at the nodes (m, N+1, ...), as three changes of slope.
 
-    A last axis of channels becomes the first, of ``count``.
+    A last axis of channels becomes the first axis, of length ``count``.
     """
     channels = values[0, 0].size
     inverse = np.append(1.0 / np.diff(nodes), 0.0)
-    # Differences of all rows as of one long row are three times faster than row by row; those
-    # from the end of a row to the start of the next are left out at last.
+    # Taking all rows as one long row is three times faster than row by row; the differences from
+    # the end of one row to the start of the next are dropped at the end.
     steps = np.zeros(values.shape)
     _differences(values.reshape(-1), channels, steps.reshape(-1))
     steps.reshape(values.shape[0], -1)[:] *= np.repeat(inverse, channels)
@@ -132,5 +131,5 @@ def _kinks(values: Array, nodes: Array, count: int) -> Array:
 
 
 def _differences(row: Array, distance: int, out: Array) -> None:
-    """Write the values ``distance`` ahead less those here into the start of ``out``."""
+    """Write the differences of values ``distance`` apart into the start of ``out``."""
     np.subtract(row[distance:], row[:-distance], out=out[:-distance])

@@ -20,16 +20,17 @@ from rollnip.influence._weights import (
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_POINTS_PER_OCTAVE = 8  # of a table; panels in an octave of wave numbers are as many at most
+# Points of a table in an octave of lengths; an octave of wave numbers has at most as many panels.
+_POINTS_PER_OCTAVE = 8
 
 
 def _resolving_an_octave() -> int:
-    """Return the nodes with which a polynomial over an octave resolves to rounding what it can.
+    """Return the number of nodes that resolves a compliance over one octave to rounding.
 
-    On a panel from w to 2 w a polynomial through n nodes misses rho^-n of a function, rho the sum
-    of the half-axes of the largest ellipse about the panel, its ends the foci and half its length
-    the unit, in which the function is analytic. Compliances are not at w = 0, three half-lengths
-    from the middle: rho = 3 + sqrt(3^2 - 1) at most.
+    On a panel from w to 2 w the interpolation error of a polynomial through n nodes is rho^-n. Here
+    rho is the sum of the half-axes of the largest ellipse in which the function is analytic, with
+    its foci at the ends of the panel and half the panel as the unit of length. Compliances are not
+    analytic at w = 0, three half-lengths from the middle, so that rho = 3 + sqrt(3^2 - 1) at most.
     """
     return ceil(-log(np.finfo(float).eps) / log(3.0 + sqrt(8.0)))
 
@@ -38,30 +39,30 @@ _NODES = _resolving_an_octave()
 
 
 def _left_between_points(per_octave: int) -> float:
-    """Return what a table of quintic polynomials leaves of a second derivative, from which G comes.
+    """Return the error of a table of quintics in a second derivative, from which G comes.
 
-    Through values, slopes and second derivatives at steps h of ln|x| they leave h^4/1920 times the
-    sixth derivative.
+    Between points at steps h of ln|x|, polynomials through values, slopes and second derivatives
+    leave h^4/1920 times the sixth derivative.
     """
     return float((log(2.0) / per_octave) ** 4 / 1920.0)
 
 
 TOLERANCE = _left_between_points(_POINTS_PER_OCTAVE)
-"""Unresolved part of a compliance that a table leaves, relative to the largest: no less."""
+"""Unresolved part of a compliance, relative to the largest one, below which a table cannot go."""
 MOST_OCTAVES = int(np.finfo(float).nmant)
-"""Octaves of length, and of wave numbers below them, that a table covers at most.
+"""Largest number of octaves of length, and of octaves of wave numbers below them, in a table.
 
-Shorter lengths are rounding of the longest.
+Shorter lengths are lost in the rounding of the longest.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """The part of space and of the spectrum that a table covers, in powers of two.
+    """The range of lengths and wave numbers that a table covers, in powers of two.
 
-    x runs over 2^points[0] ... 2^points[1] mm; wave numbers over 2^octaves[0] ... 2^octaves[1]
-    per mm, with a single panel from 0 below and a closed form from there to infinity above. A table
-    has ``per_octave`` points in an octave of lengths.
+    x runs over 2^points[0] ... 2^points[1] mm; wave numbers over 2^octaves[0] ... 2^octaves[1] per
+    mm. A single panel covers wave numbers from 0 to the lowest, and a closed form those above the
+    highest. A table has ``per_octave`` points in an octave of lengths.
     """
 
     points: tuple[int, int]
@@ -72,10 +73,10 @@ class Window:
     def covering(
         cls, shortest: float, longest: float, slowest: float = 0.0, *, densely: bool = False
     ) -> Window:
-        """Window that resolves lengths from ``shortest`` to ``longest`` [mm].
+        """Return the window that resolves lengths from ``shortest`` to ``longest`` [mm].
 
         ``slowest`` is the longest relaxation length V tau [mm]; the panel at zero ends well below
-        its inverse. ``densely``: with twice the points.
+        its inverse. ``densely``: with twice as many points.
         """
         high = ceil(log2(longest))
         low = max(floor(log2(shortest)), high - MOST_OCTAVES)
@@ -90,27 +91,26 @@ class Window:
 class Kernel:
     """Influence function G(x) of a line traction, with its first and second integrals from 0.
 
-    A quintic Hermite interpolation of F_2(x) = (2/x^2) int_0^x int_0^t G in the logarithm of
-    |x|, on either side: F_2 is analytic in ln|x| although G is singular at 0, so no singular
-    part has to be split off. G is a displacement per unit of line load [mm/(N/mm)].
+    G is a displacement per unit of line load [mm/(N/mm)]. The table is a quintic Hermite
+    interpolation of F_2(x) = (2/x^2) int_0^x int_0^t G, on either side of 0, in ln|x|. F_2 is
+    analytic in ln|x| although G is singular at 0, so that no singular part has to be split off.
 
-    A kernel may carry several channels (the influence functions of one surface), which are then
-    evaluated together: results have the shape of x, then an axis of channels. Three channels
-    are filled up to four by one of zeros, in results too: numpy fetches 32 bytes at a time
-    several times as fast as 24.
+    A kernel may have several channels (the influence functions of one surface), which are evaluated
+    together: results have the shape of x, then an axis of channels. Three channels are padded with
+    zeros to four, in results too, because numpy fetches 32 bytes at a time several times faster
+    than 24.
 
     Attributes
     ----------
     points_per_octave, first :
         the grid is |x| = 2^((first + j)/points_per_octave).
     coefficients :
-        (6, 2 cells) or (6, 2 cells, channels), in tables of half-spaces 2 for 6: polynomials in
-        the fraction of a cell, counted from its end nearer to 0; cells in the order of x, those
-        of x < 0 before those of x > 0.
-        On either side the first and the last cell go on linearly in ln|x|, below and beyond the
-        grid.
+        (6, 2 cells) or (6, 2 cells, channels), with 2 in place of 6 in tables of half-spaces:
+        coefficients of polynomials in the fraction of a cell, counted from its end nearer to 0.
+        Cells are in the order of x, so that those of x < 0 precede those of x > 0. On either side
+        the first and the last cell extrapolate linearly in ln|x|, below and beyond the grid.
     count :
-        channels, without one of zeros.
+        number of channels, without the padding.
     """
 
     points_per_octave: int
@@ -149,12 +149,13 @@ class Kernel:
     def reach_of_differences(self) -> float:
         """Distance up to which differences are taken, over the length h of an element.
 
-        A difference keeps eps G x^2/2 of the double integral at a distance x. The element itself
-        yields as G falls with ln|x| at its own place, by A h^2: the rest is noise of the tractions,
-        under a stiff skin 1e-3 of the pressure where a tenth of the elements lie within 1e-3 of the
-        contact. A third of all digits, 6e-6 of the tractions, is little beside any tolerance. Two
-        Gauss points miss h^5/2160 A/x^3 of a logarithm: nearer than where that is eps A x^2/2, the
-        least that a difference keeps, they gain nothing.
+        At a distance x, a difference of double integrals keeps the rounding error eps G x^2/2. The
+        element itself responds by the fall A of G with ln|x| at its own place, that is by A h^2.
+        Relative to this, the rounding error is noise in the tractions; under a stiff skin it was
+        1e-3 of the pressure where a tenth of the elements lay within 1e-3 of the contact. A third
+        of all digits, 6e-6 of the tractions, is small beside any tolerance, and sets the distance.
+        Two Gauss points miss h^5/2160 A/x^3 of a logarithm. Nearer than where this equals eps A
+        x^2/2, the smallest error of a difference, they gain nothing.
         """
         largest = float(np.abs(self.coefficients[0]).max())
         if largest == 0.0:
@@ -165,18 +166,18 @@ class Kernel:
         return max(sqrt(2.0 * noise / eps), float((1080.0 * eps) ** -0.2))
 
     def double_integral(self, x: Array) -> Array:
-        """int_0^x int_0^t G(s) ds dt, shape of ``x`` [mm] (then channels)."""
+        """Return int_0^x int_0^t G(s) ds dt, of the shape of ``x`` [mm] (then channels)."""
         (value,) = self._jet(x, 0)
         value *= _for_channels(0.5 * x * x, value)
         return value
 
     def integral(self, x: Array) -> Array:
-        """int_0^x G(t) dt, shape of ``x`` [mm] (then channels): H of theory section 4."""
+        """Return int_0^x G(t) dt (H of theory section 4), of the shape of ``x`` [mm] (channels)."""
         value, slope = self._jet(x, 1)
         return np.asarray(_for_channels(x, value) * (value + 0.5 * slope))
 
     def value(self, x: Array) -> Array:
-        """G(x) [mm/(N/mm)], shape of ``x`` [mm] (then channels); large where singular at 0."""
+        """Return G(x) [mm/(N/mm)], of the shape of ``x`` [mm] (channels); may be singular at 0."""
         value, slope, bend = self._jet(x, 2)
         return value + 1.5 * slope + 0.5 * bend
 
@@ -195,7 +196,7 @@ class Kernel:
     __rmul__ = __mul__
 
     def _jet(self, x: Array, order: int) -> list[Array]:
-        """F_2 and its derivatives to ln|x| up to ``order``."""
+        """Return F_2 and its derivatives with respect to ln|x|, up to ``order``."""
         jet = _horner(self.coefficients, *self._cells(x), order)
         per_log = self.points_per_octave / log(2.0)
         for scale, part in zip((per_log, 2.0 * per_log**2), jet[1:], strict=False):
@@ -203,17 +204,17 @@ class Kernel:
         return jet
 
     def _cells(self, x: Array) -> tuple[Indices, Array]:
-        """The cell of each place, and the fraction of it that lies between the place and 0."""
+        """Return the cell of each place, and the fraction of it between the place and 0."""
         cells = self.coefficients.shape[1] // 2
         position = np.log2(x * x + np.finfo(float).tiny)
         position *= 0.5 * self.points_per_octave
         position -= self.first
-        # Cell -1 is what lies below the grid.
+        # Cell -1 extends from the grid down to 0.
         cell = np.floor(position)
         np.maximum(cell, -1.0, out=cell)
         np.minimum(cell, cells - 2.0, out=cell)
         position -= cell
-        # The middle of the cell, counted from 0 to either side, then from the lowest x up.
+        # First the middle of the cell, counted from 0 to either side; then the index from lowest x.
         cell += 1.5
         middle = np.copysign(cell, x, out=cell)
         middle += cells
@@ -221,7 +222,7 @@ class Kernel:
 
 
 def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> list[Array]:
-    """Polynomials of some cells with their first two derivatives (the second halved)."""
+    """Return polynomials of given cells, with derivatives up to ``order`` (the second halved)."""
     *lower, highest = coefficients
     top = highest.take(cell, axis=0)
     fraction = _for_channels(fraction, top)
@@ -237,10 +238,10 @@ def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> 
 
 
 def _for_channels(values: Array, like: Array) -> Array:
-    """Values at some places, each repeated for every channel of ``like``.
+    """Return the values at some places, each repeated for every channel of ``like``.
 
-    Numpy is several times faster at that and a product of two plain arrays than at a product
-    that repeats a value over an axis of few channels.
+    Repeating and multiplying two plain arrays is several times faster in numpy than a product that
+    broadcasts over a short axis of channels.
     """
     if values.ndim == like.ndim:
         return values
@@ -248,7 +249,7 @@ def _for_channels(values: Array, like: Array) -> Array:
 
 
 def _filled_up(channels: int) -> int:
-    """Channels of a table."""
+    """Return the number of channels of a table, with padding."""
     return 4 if channels == 3 else channels
 
 
@@ -263,27 +264,28 @@ def tabulate(
     tolerance: float = TOLERANCE,
     nodes: int = _NODES,
 ) -> Kernel:
-    """Influence functions of compliances, by the non-equidistant inverse Fourier transform.
+    """Return the influence functions of compliances, by non-equidistant inverse Fourier transform.
 
     G(x) = (1/2 pi) int C(w) e^{iwx} dw = (1/pi) int_0^inf Re[C(w) e^{iwx}] dw. Wave numbers are
-    cut in panels that grow in a geometric series; on each C is a polynomial through ``nodes``
-    points, integrated exactly against the oscillation (Filon); above the last panel C = A/w in
-    closed form. Panels are halved in ratio until the polynomials resolve C to ``tolerance``.
+    divided into panels that grow in a geometric series. On each panel C is a polynomial through
+    ``nodes`` points, integrated exactly against the oscillation (Filon). Above the last panel C =
+    A/w, in closed form. The number of panels per octave is doubled until the polynomials resolve C
+    to ``tolerance``.
 
     Parameters
     ----------
     compliance :
-        function of wave numbers (n,) [1/mm] returning a tuple of (n,) complex arrays.
+        function of wave numbers (n,) [1/mm] that returns a tuple of (n,) complex arrays.
     window :
         lengths and wave numbers to cover.
     low_limit :
-        for each compliance the A of C -> A/w as w -> 0: 0 on a rigid core, not 0 on a
-        half-space, whose infinite constant displacement is left out (the table is then that of
-        the wave numbers above 1/mm plus the changing part of those below).
+        for each compliance the A of C -> A/w as w -> 0. It is 0 on a rigid core. On a half-space it
+        is not, and the infinite constant displacement is left out: the table is then that of the
+        wave numbers above 1/mm plus the part of those below that varies with x.
     tolerance :
         largest unresolved part of w C(w), relative to the largest w C(w).
     nodes :
-        points per panel; 3 is the paper's quadratic.
+        points per panel; the paper's quadratic has 3.
 
     Returns
     -------
@@ -301,15 +303,15 @@ def tabulate(
 
 
 def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
-    """The table of elastic half-spaces, whose influence functions are known in closed form.
+    """Return the table of elastic half-spaces, whose influence functions are known in closed form.
 
     Parameters
     ----------
     window :
         lengths to cover.
     even, odd :
-        for each channel the A and the B of C = (A + i B)/w at w > 0. Then
-        G = -A/pi (ln|x| + Euler's constant) - B/2 sign(x), with the constant of `tabulate`.
+        for each channel the A and the B of C = (A + i B)/w at w > 0. Then G = -A/pi (ln|x| +
+        Euler's constant) - B/2 sign(x), with the constant of `tabulate`.
 
     Returns
     -------
@@ -320,7 +322,7 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
     step = log(2.0) / n
     cells = points.size + 1
     out = np.zeros((2, 2 * cells, _filled_up(even.size)))
-    # F_2 of ln|x| is ln|x| - 3/2, of the sign the sign; the outer cells go on beyond the grid.
+    # F_2 of ln|x| is ln|x| - 3/2, that of sign(x) is sign(x); outer cells extend beyond the grid.
     start = step * (points[0] - 1 + np.arange(cells)) + np.euler_gamma - 1.5
     level, slope = np.multiply.outer(start, -even / np.pi), -step * even / np.pi
     out[0, :cells, : even.size] = level[::-1] + 0.5 * odd
@@ -332,14 +334,14 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
 def _sample(
     compliance: Compliance, window: Window, per_octave: int, nodes: int
 ) -> tuple[ComplexArray, float]:
-    """C at all sample points, shape (compliances, n), and what its polynomials leave out."""
+    """Return C at all sample points, (compliances, n), and what the polynomials leave out."""
     w = sample_points(window.octaves, per_octave, nodes)
     values = np.stack(compliance(w))
     _, _, to_coefficients = gauss_legendre(nodes)
     scaled = (values * w)[:, :-1].reshape(-1, nodes)
     coefficients = np.abs(scaled @ to_coefficients[-2:].T).reshape(len(values), -1)
     largest = np.abs(scaled).reshape(len(values), -1).max(axis=1)
-    # A kernel that is small beside the others need not be resolved to its own size.
+    # A compliance that is small beside the others need not be resolved relative to its own size.
     largest = np.maximum(largest, max(1e-3 * largest.max(), np.finfo(float).tiny))
     return values, float((coefficients.max(axis=1) / largest).max())
 
@@ -347,7 +349,7 @@ def _sample(
 def _transform(
     samples: ComplexArray, low_limit: ComplexArray, window: Window, per_octave: int, nodes: int
 ) -> Array:
-    """F_r(+-x_j); shape (3, points, compliances, 2 sides)."""
+    """Return F_r(+-x_j), (3, points, compliances, 2 sides)."""
     w = sample_points(window.octaves, per_octave, nodes)
     rows = np.empty((low_limit.size, w.size + 1), dtype=complex)
     rows[:, :-2] = samples[:, :-1]
@@ -358,7 +360,7 @@ def _transform(
 
 
 def _hermite(means: Array, per_octave: int) -> Array:
-    """Coefficients (6, 2 cells, channels) from F_0, F_1, F_2 of shape (3, points, channels, 2)."""
+    """Return coefficients (6, 2 cells, channels) from F_0, F_1, F_2 (3, points, channels, 2)."""
     step = log(2.0) / per_octave
     f_0, f_1, f_2 = means
     slope = (2.0 * step) * (f_1 - f_2)

@@ -1,28 +1,29 @@
 """Second-order displacement of a coated surface: what finite strain adds to the linear response.
 
-The layers are compressible or incompressible neo-Hookean.  With H the displacement gradient of
-the linear solution, t = tr H, D = det H and K = cof(1 + H) - 1, the nominal stress
+The layers are compressible or incompressible neo-Hookean.  With H the displacement gradient of the
+linear solution, t = tr H, D = det H and K = cof(1 + H) - 1, the nominal stress
 
     P = G F + [(lambda log J - G)/J] cof F
 
 is its linear part plus a stress N that is quadratic in H,
 
-    N = (lambda + G) t K + [lambda (D - 3 t^2/2) + G (D - t^2)] 1,
+    N = (lambda + G) t K + [lambda (D - 3 t^2/2) + G (D - t^2)] 1.
 
-and N acts on the surface as a load does: by reciprocity its displacement there is
--int N : grad g dV, g the linear response to a unit load on the surface.  With m = (lambda + G) t,
-the mean of the linear stresses in the plane, and the same marked ' of g,
+N acts on the surface as a load does: by reciprocity it displaces the surface by -int N : grad g dV,
+where g is the linear response to a unit load on the surface.  With m = (lambda + G) t, the mean of
+the linear stresses in the plane, and primed quantities those of g,
 
     N : grad g = [D - (1 - 2 nu) t^2] m' + m (t - 2 H_xx) g_xx + m (H_xx - 3 nu t) t'
-                 - m H_zx g_xz - m H_xz g_zx,
+                 - m H_zx g_xz - m H_xz g_zx.
 
-which holds at nu = 0.5 as it stands: there t = t' = 0, and m is minus the pressure.  The loads
-are turned with the surface; at last everything is referred to where the material is now, not
-where it came from.
+This holds at nu = 0.5 as it stands: there t = t' = 0, and m is minus the pressure.  The loads
+rotate with the surface.  Finally everything is referred to where the material is now, not where it
+came from.
 
-In the transform u_x is i times an amplitude where u_z is an amplitude, and t_x where t_z: elastic
-layers have real amplitudes.  Those of g are the same ones, at viscoelastic layers too: the wave
-that tests the surface runs the other way, with conjugate moduli, and is conjugated again.
+In the transform u_x is i times an amplitude where u_z is an amplitude, and t_x likewise where t_z:
+elastic layers thus have real amplitudes.  The amplitudes of g are the same ones, for viscoelastic
+layers too: the wave that tests the surface runs the other way, with conjugate moduli, and is
+conjugated again.
 """
 
 from __future__ import annotations
@@ -42,33 +43,33 @@ from rollnip.influence.surface import moduli
 from rollnip.model import Model
 from rollnip.rollers import Roller
 
-_SIZES_PER_OCTAVE = 4  # half-widths that have a table
-_LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; beyond, terms are not of second order
+_SIZES_PER_OCTAVE = 4  # half-widths that have a table of their own
+_LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; above it, second-order terms are not small
 _POINTS_PER_HALF_WIDTH = 18.0  # of the grid on which fields at depth are multiplied
-_LARGEST_SPREAD = 3.0  # such a length that counts at most, in half-widths
+_LARGEST_SPREAD = 3.0  # cap on the length of `_spread`, in half-widths
 
 
 @dataclass(frozen=True, slots=True)
 class SecondResponse:
     """Table from which the second-order displacement of one surface is computed.
 
-    Transforms are Fourier coefficients, whatever the grid; those of tractions are of i t_x and
-    t_z. Amplitudes are those of linear fields per unit of both, on the last axis.
+    Transforms are Fourier coefficients, independent of the grid; those of tractions are of i t_x
+    and t_z. Amplitudes are those of linear fields per unit of each of these two, on the last axis.
 
     Attributes
     ----------
     x : (n,) uniform periodic grid of the surface [mm].
-    k : (nk,) wave numbers, nk = n/4 + 1: those of every second point [1/mm].
+    k : (nk,) wave numbers, nk = n/4 + 1, of the grid with every second point [1/mm].
     curvature : 1/R [1/mm].
     poisson : (nz, 1) Poisson ratios at the depths of the integral.
     dilation : (nz, 1) tr H over the mean stress in the plane [1/MPa]; None where it is zero, or
-        goes with the wave number: then ``fields`` has tr H.
+        depends on the wave number: then ``fields`` has tr H.
     fields : (nk, 4 nz or 5 nz, 2) amplitudes at depth of the mean stress in the plane, H_xx,
-        perhaps tr H, H_xz/i and H_zx/i; each times the cube root of the weight of the depth [mm],
-        for the integrand is a product of three.
+        perhaps tr H, H_xz/i and H_zx/i. Each is multiplied by the cube root of the weight of its
+        depth [mm], because the integrand is a product of three.
     surface : (nk, 4, 2) amplitudes of u_x, u_z, du_x/dx, du_z/dx at the surface.
-    impulse : (nk,) transform, at x[0], of a traction of which the second derivative is an impulse
-        [mm]; for k = 0 of the impulse itself [1/mm]. What is too short for the contact is left out.
+    impulse : (nk,) transform, at x[0], of a traction whose second derivative is an impulse [mm];
+        for k = 0, of the impulse itself [1/mm]. Waves too short for the contact are left out.
     angle : (n,) x/R, at most 1 either way.
     excess : (n,) x^3/(6 R^2), by which the arc is longer than the tangent [mm].
     is_short : whether fields spread farther in the layers than the grid is long. The grid then
@@ -88,23 +89,23 @@ class SecondResponse:
     is_short: bool
 
     def fitted(self, half_width: float) -> SecondResponse:
-        """Return this table for another contact, of a half-width [mm] that it resolves."""
+        """Return this table for another contact of a half-width [mm] that its grid resolves."""
         impulse, angle, excess = _fit(self.x, self.k, self.curvature, half_width)
         return replace(self, impulse=impulse, angle=angle, excess=excess)
 
     def displacement(
         self, nodes: Array, pressure: Array, shear: Array, inward: float | None = None
     ) -> tuple[EvenSpline, ...]:
-        """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
+        """Return the second-order (u_x, u_z) as functions of x, under tractions in the own frame.
 
-        With the linear ones they say of the material at the abscissa x that it was at the arc
-        x - u_x and is at the radius R - u_z.
+        Together with the linear displacements they say of the material at the abscissa x that it
+        was at the arc x - u_x and is at the radius R - u_z.
 
         Parameters
         ----------
         nodes : (N+1,) of the mesh [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
-        inward : the linear u_z at x = 0 [mm], which a short grid does not know.
+        inward : the linear u_z at x = 0 [mm], which a short grid cannot provide; None where it can.
         """
         tractions = self._transform(nodes, shear, pressure)
         tractions[:, 0] *= 1j
@@ -115,10 +116,11 @@ class SecondResponse:
         return even_splines(self.x, moved)
 
     def _transform(self, nodes: Array, *tractions: Array) -> ComplexArray:
-        """Transforms of m tractions (N-1,) that are linear between nodes, exact, (nk, m).
+        """Return the exact transforms (nk, m) of m tractions (N-1,) that are linear between nodes.
 
-        The second derivative is a row of impulses, the changes of slope at the nodes. Their waves
-        exp(-i k x) are products of those of a few small and a few large wave numbers.
+        The second derivative of a traction is a series of impulses, the changes of slope at the
+        nodes. Their waves exp(-i k x) are products of the waves of a few small and a few large wave
+        numbers.
         """
         lengths = nodes[1:] - nodes[:-1]
         values = np.zeros((len(tractions), nodes.size))
@@ -138,22 +140,22 @@ class SecondResponse:
         return out
 
     def _back(self, transform: ComplexArray) -> Array:
-        """Values on the grid of the surface, (m, n), of transforms (m, nk)."""
+        """Return the values (m, n) on the grid of the surface, of transforms (m, nk)."""
         return np.fft.irfft(transform, self.x.size, norm="forward")
 
     def _quadratic(self, tractions: ComplexArray) -> ComplexArray:
-        """Transform of the displacement of the surface by the quadratic stress, (nk, 2)."""
+        """Return the transform of the surface displacement due to the quadratic stress, (nk, 2)."""
         n, nz, poisson = 2 * (self.k.size - 1), self.poisson.size, self.poisson
         transforms = _times(self.fields, tractions)
         transforms[:, -2 * nz :] *= 1j
         fields = np.fft.irfft(transforms.T, n, norm="forward").reshape(-1, nz, n)
         mean, xx, *rest = fields[:-2]
         xz, zx = fields[-2:]
-        loads = np.empty_like(fields)  # what multiplies those of g, all with the other sign
+        loads = np.empty_like(fields)  # the factors of the fields of g, with opposite sign
         minus_det, minus_stretch = loads[0], 2.0 * xx
         np.multiply(xx, xx, out=minus_det)
         minus_det += xz * zx
-        if self.dilation is not None:  # t'/m' = t/m: what multiplies t' goes to m'
+        if self.dilation is not None:  # t'/m' = t/m: the factor of t' is added to that of m'
             dilation = self.dilation * mean
             minus_stretch -= dilation
             minus_det += dilation * (poisson * dilation - minus_stretch)
@@ -169,7 +171,10 @@ class SecondResponse:
         return _times(self.fields.transpose(0, 2, 1), transforms.T) * (-1j, 1.0)
 
     def _moved(self, tractions: ComplexArray, inward: float | None) -> tuple[Array, ComplexArray]:
-        """Change to present places, (2, n), and loads i t_x, t_z that turn and stretch, (nk, 2)."""
+        """Return the change to present places (2, n), and the added loads i t_x, t_z (nk, 2).
+
+        The loads are those by which the tractions are rotated and stretched with the surface.
+        """
         transforms = np.empty((6, self.k.size), dtype=complex)
         transforms[:4] = _times(self.surface, tractions).T
         transforms[4:] = tractions.T
@@ -177,10 +182,11 @@ class SecondResponse:
         u_x, u_z, slope_x, slope_z, q, p = self._back(transforms)
         if inward is not None:
             u_z += inward - u_z[self.x.size // 2]
-        # The place x on the tangent is at the arc x + bend of the undeformed circle.
+        # The place x on the tangent corresponds to the arc x + bend of the undeformed circle.
         bend = self.angle * u_z + self.excess
         shift = u_x - bend
-        # Load per undeformed arc: t times present length as the undeformed tangent there sees it.
+        # Load per undeformed arc: t times the present length, in components along the undeformed
+        # tangent and normal there.
         longer = self.angle * (0.5 * self.angle + slope_z)
         rotation = slope_z + self.curvature * u_x
         turned = np.empty((4, self.x.size))
@@ -198,7 +204,7 @@ class SecondResponse:
 
 
 def _powers(base: ComplexArray, count: int) -> ComplexArray:
-    """base^0 to base^(count - 1), (count, n)."""
+    """Return base^0 to base^(count - 1), (count, n)."""
     out = np.empty((count, base.size), dtype=complex)
     out[0], done = 1.0, 1
     while done < count:
@@ -209,7 +215,7 @@ def _powers(base: ComplexArray, count: int) -> ComplexArray:
 
 
 def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
-    """Products (nk, a) of a matrix (nk, a, b) and a vector (nk, b) for every wave number."""
+    """Return the products (nk, a) of matrices (nk, a, b) and vectors (nk, b), by wave number."""
     if np.iscomplexobj(matrix):
         return np.asarray((matrix @ vectors[:, :, None])[:, :, 0])
     parts = np.ascontiguousarray(vectors).view(float).reshape(*vectors.shape, 2)
@@ -217,8 +223,8 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
 
 
 def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array, Array, Array]:
-    """`SecondResponse.impulse`, ``angle`` and ``excess`` for a contact."""
-    # Short waves are left out, smoothly, whatever the grid: they are not small of second order.
+    """Return ``impulse``, ``angle`` and ``excess`` of a `SecondResponse` for a contact."""
+    # Short waves are filtered out smoothly, whatever the grid: their second order is not small.
     kept = np.finfo(float).eps ** ((k * (half_width / (pi * _LARGEST_WAVE_NUMBER))) ** 6)
     squares = -k * k
     squares[0] = 1.0
@@ -228,16 +234,19 @@ def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array
 
 
 def table_size(roller: Roller, half_width: float) -> float:
-    """The next half-width at or below this one that has a table [mm]; loads nearby share it."""
+    """Return the next half-width at or below this one that has a table [mm].
+
+    Contacts of similar size thus share a table.
+    """
     layers = roller.coating_thickness
     step = np.floor(_SIZES_PER_OCTAVE * np.log2(half_width / layers))
     return float(layers * 2.0 ** (step / _SIZES_PER_OCTAVE))
 
 
 def second_table(roller: Roller, speed: float | None, size: float) -> SecondResponse:
-    """Second-order response for contacts from the half-width ``size`` to that of the next table.
+    """Return the second-order response for half-widths from ``size`` to that of the next table.
 
-    As it stands it is fitted to the smallest of them.
+    As returned it is fitted to the smallest of them.
     """
     x = _grid(roller, size)
     k = np.asarray(pi / -x[0] * np.arange(x.size // 4 + 1), dtype=float)
@@ -268,11 +277,11 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
 
 
 def _grid(roller: Roller, size: float) -> Array:
-    """Even grid around the contact, long enough for what the layers let spread, or a full turn.
+    """Return an even grid around the contact, as long as the fields spread, or a full turn.
 
-    It is fine enough for the smallest contact of a table, ``size``, and at the surface twice as
-    fine as at depth, for products of two waves are half as long. It is long enough for the largest:
-    fields have decayed to the default tolerance.
+    It is fine enough for the smallest contact of a table, ``size``. At the surface it is twice as
+    fine as at depth, because products of two waves have half the wavelength. It is long enough for
+    the largest contact: fields have decayed to the default tolerance.
     """
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
     window = 2.0 * (largest - log(Model().tolerance) * _spread(roller, size))
@@ -284,16 +293,17 @@ def _grid(roller: Roller, size: float) -> Array:
 
 
 def _spread(roller: Roller, size: float) -> float:
-    """Length over which layers spread a load, for the length of the grid [mm]."""
+    """Return the length over which the layers spread a load, for the length of the grid [mm]."""
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
     return float(min(max(_shear_lag(roller), 0.5 * largest), _LARGEST_SPREAD * largest))
 
 
 def _shear_lag(roller: Roller) -> float:
-    """Length over which the layers spread what pulls at one of them [mm].
+    """Return the shear-lag length: how far the layers spread a pull on one of them [mm].
 
-    Layers are stretched, the sum of E h, and sheared, the sum of h/E: fields decay over the root of
-    the product, the thickness where there is one elastic layer.
+    Layers are stretched, with the stiffness sum of E h, and sheared, with the compliance sum of
+    h/E. Fields decay over the root of the product of these; for one elastic layer it is the
+    thickness.
     """
     stretch = sum(one.thickness * one.material.glassy_modulus for one in roller.layers)
     shear = sum(one.thickness / one.material.relaxed_modulus for one in roller.layers)
@@ -301,18 +311,18 @@ def _shear_lag(roller: Roller) -> float:
 
 
 def _positive(k: Array) -> Array:
-    """The wave numbers with a small one in place of zero."""
+    """Return the wave numbers with a small one in place of zero."""
     return np.asarray(np.maximum(k, 1e-6 * k[1]))
 
 
 def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
-    """Depths, weights and layers of the integral over depth.
+    """Return depths, weights and layer numbers of the quadrature over depth.
 
-    In every layer Gauss points of the logarithm of the depth (and a little): fields that decay
-    within any length that the grid carries are nearly polynomials in it. For each fold of e in
-    depth, and in every layer for one more, there are as many points d as leave the tolerance of the
-    tables: what decays as exp(-k exp(s)) is bounded in the strip |Im s| < pi/2, where Gauss's rule
-    misses exp(-4 d pi/2).
+    In every layer there are Gauss points of the logarithm of the depth plus a small length: fields
+    that decay within any length that the grid carries are nearly polynomials in it. The number of
+    points for each factor e of depth, and for one more in every layer, is the d that leaves the
+    tolerance of the tables: a decay exp(-k exp(s)) is bounded in the strip |Im s| < pi/2, where the
+    error of Gauss's rule is exp(-4 d pi/2).
     """
     little = min(roller.coating_thickness, half_width) / _LARGEST_WAVE_NUMBER
     per_fold = -log(TOLERANCE) / (2.0 * pi)
@@ -330,7 +340,7 @@ def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
 def _amplitudes(
     roller: Roller, k: Array, z: Array, young: Array | ComplexArray
 ) -> Array | ComplexArray:
-    """Amplitudes (nk, nz, 5, 2) of the fields at depth per unit i t_x and t_z."""
+    """Return the amplitudes (nk, nz, 5, 2) of the fields at depth per unit i t_x and t_z."""
     thickness = [layer.thickness for layer in roller.layers]
     poisson = [layer.material.poisson for layer in roller.layers]
     if isinf(roller.radius):
@@ -344,15 +354,15 @@ def _gradients(
     curvature: float,
     medium: tuple[Array, Array | ComplexArray, Array, Array],
 ) -> Array | ComplexArray:
-    """Amplitudes of the mean stress and the displacement gradient, as ``SecondResponse`` has them.
+    """Return the amplitudes of mean stress and displacement gradient, as in ``SecondResponse``.
 
     ``medium`` holds depths (nz,), 2 G (nk, nz), Poisson ratios (nz,) and weights (nz,) [mm].
     """
     z, shear, poisson, weight = medium
     part = np.cbrt(weight)
-    # Both columns are written out, for numpy is slow where the last axis is short.
+    # Both columns are written out, because numpy is slow over a short last axis.
     parts, poisson = np.repeat(part, 2).reshape(-1, 2), poisson[:, None]
-    inverse = np.repeat(part / (1.0 - curvature * z), 2).reshape(-1, 2)  # R/r times the part
+    inverse = np.repeat(part / (1.0 - curvature * z), 2).reshape(-1, 2)  # R/r times `part`
     hoop, wave = curvature * inverse, k[:, None, None] * inverse
     twice_shear = np.repeat(shear, 2, axis=1).reshape(k.size, -1, 2)
     u_x, u_z, s_xx, s_zz, s_xz = np.ascontiguousarray(np.moveaxis(fields, 2, 0))  # (nk, nz, 2)

@@ -17,8 +17,9 @@ from rollnip.materials import Material
 from rollnip.model import RINGS
 from rollnip.rollers import Roller
 
-# Modulus of a layer over that of the one below from which tables have twice the points: what
-# interpolation leaves, 1e-7 of the largest compliance, is as much more of that of short waves.
+# Ratio of the moduli of a layer and the one below it, above which tables have twice the points: the
+# interpolation error, 1e-7 of the largest compliance, is larger than that by this ratio relative to
+# the compliance at short waves.
 _STIFF_SKIN = 100.0
 
 
@@ -37,41 +38,41 @@ class SurfaceKernels:
 
     @property
     def xx(self) -> Kernel:
-        """u_x of t_x."""
+        """Influence of t_x on u_x."""
         return self.together.channel(0)
 
     @property
     def zz(self) -> Kernel:
-        """u_z of t_z."""
+        """Influence of t_z on u_z."""
         return self.together.channel(1)
 
     @property
     def xz(self) -> Kernel:
-        """u_x of t_z."""
+        """Influence of t_z on u_x."""
         return self.together.channel(2)
 
     def displacement(self, x: Array, nodes: Array, t_z: Array, t_x: Array) -> tuple[Array, Array]:
-        """u_x and u_z at places under tractions at nodes[1:-1], linear between nodes [mm]."""
+        """Return u_x and u_z [mm] at places, under tractions at nodes[1:-1], linear in between."""
         xx, zz, xz = displacement_under(self.together, x, nodes, np.stack([t_z, t_x], axis=1))
         return xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]
 
     def inward_at(self, x: float, nodes: Array, t_z: Array, t_x: Array) -> float:
-        """u_z at a place under tractions at nodes[1:-1], linear between nodes [mm]."""
+        """Return u_z [mm] at one place, under tractions at nodes[1:-1], linear in between."""
         return float(self.displacement(np.array([x]), nodes, t_z, t_x)[1][0])
 
 
 def joint_kernel(
     upper: SurfaceKernels | None, lower: SurfaceKernels | None, *, has_friction: bool
 ) -> Kernel:
-    """Return what the gap and the creep of a contact take of both surfaces together.
+    """Return the influence functions of gap and creep, of both surfaces together.
 
-    Channels are zz of both added, xz of the upper less that of the lower, and xx of both added;
-    without friction zz alone.
+    The channels are the sum of both zz, the xz of the upper surface less that of the lower one, and
+    the sum of both xx; without friction, zz alone.
 
     Parameters
     ----------
     upper, lower : None for a rigid surface; not both.
-    has_friction : whether creep and shear matter.
+    has_friction : whether creep and shear are needed.
     """
     sides = (upper, 1.0), (lower, -1.0)
     parts = [[one.zz, sign * one.xz, one.xx] for one, sign in sides if one is not None]
@@ -80,7 +81,7 @@ def joint_kernel(
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
-    """Return whether layers count as curved: finite radius, rigid core, a geometry of rings."""
+    """Return whether the layers are rings: finite radius, rigid core, a geometry with rings."""
     curved = geometry in RINGS
     return curved and not isinf(roller.radius) and roller.core is None
 
@@ -95,7 +96,7 @@ def has_stiff_skin(rollers: Iterable[Roller]) -> bool:
 
 
 def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
-    """Window that resolves every length of the rollers: radii, thicknesses, V tau."""
+    """Return the window that resolves every length of the rollers: radii, thicknesses, V tau."""
     radii = [roller.radius for roller in rollers if roller.radius < inf]
     thicknesses = [layer.thickness for roller in rollers for layer in roller.layers]
     memories = [
@@ -106,8 +107,8 @@ def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
     ]
     memories = [length for length in memories if length > 0.0]
     longest = 8.0 * min(radii)
-    # Below the shortest the table goes on as its limit, linear in ln|x|: what is left out there
-    # is of relative order (x/thickness)^2, x/radius and x/(V tau).
+    # Below the shortest length the table is continued by its limit, linear in ln|x|; the error
+    # there is of relative order (x/thickness)^2, x/radius and x/(V tau).
     shortest = min(
         [1e-6 * min(radii)] + [1e-3 * d for d in thicknesses] + [1e-5 * m for m in memories]
     )
@@ -122,16 +123,16 @@ def surface_kernels(
     window: Window,
     tolerance: float = TOLERANCE,
 ) -> SurfaceKernels:
-    """Tabulate the influence functions of a roller in steady rolling.
+    """Return the tabulated influence functions of a roller in steady rolling.
 
     Parameters
     ----------
     roller :
-        not a bare rigid one.
+        one that deforms, not a bare rigid core.
     speed :
         rolling speed V [mm/s]; may be None where all materials are elastic.
     geometry :
-        "curved", "second" and "finite" bend the layers to rings; the others keep them flat.
+        in "curved", "second" and "finite" the layers are rings; in the others they are flat.
     window :
         lengths and wave numbers to tabulate.
     tolerance :
@@ -156,9 +157,9 @@ def surface_kernels(
 def surface_compliance(
     roller: Roller, speed: float | None, geometry: str
 ) -> Callable[[Array], tuple[ComplexArray, ComplexArray, ComplexArray]]:
-    """Compliances (C_xx, C_zz, C_xz) of a roller as a function of the wave number w > 0.
+    """Return the compliances (C_xx, C_zz, C_xz) of a roller as a function of the wave number w > 0.
 
-    Steady rolling: a field e^{iwx} is seen by the material at the time factor s = -i w V.
+    In steady rolling the material sees a field e^{iwx} with the time factor s = -i w V.
     """
     thickness = np.array([layer.thickness for layer in roller.layers])
     poisson = np.array([layer.material.poisson for layer in roller.layers])
@@ -179,7 +180,7 @@ def surface_compliance(
 
 
 def moduli(material: Material, k: Array, speed: float | None) -> Array | ComplexArray:
-    """Modulus at each wave number: real where the material is elastic."""
+    """Return the modulus at each wave number; real where the material is elastic."""
     if material.is_elastic:
         return np.full(k.shape, material.relaxed_modulus)
     assert speed is not None  # a Nip with a viscoelastic material has a speed

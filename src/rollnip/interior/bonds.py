@@ -1,4 +1,4 @@
-"""Stresses that the interfaces between layers, and the bond to the core, have to carry."""
+"""Stresses on the interfaces between layers and on the bond to the core."""
 
 from __future__ import annotations
 
@@ -22,15 +22,16 @@ class InterfaceStress(Sealed):
     ----------
     roller : which one, "upper" or "lower".
     depth : below the surface [mm].
-    is_bond : True for the lower face of the last layer, on the core.
+    is_bond : True for the lower face of the last layer, which lies on the core.
     x : (n,) places [mm], from trailing to leading.
-    shear : (n,) s_xz in the roller's frame; at finite strain along the deformed interface [MPa].
+    shear : (n,) s_xz in the roller's frame [MPa]; at finite strain, along the deformed interface.
     peel : (n,) s_zz, tension positive [MPa].
     shear_min, shear_max, peel_min, peel_max : extremes over x [MPa].
     shear_min_x, shear_max_x, peel_min_x, peel_max_x : their places [mm].
-    shear_range, peel_range : largest less smallest, 0 far from the nip included [MPa].
-    von_mises_max : largest von Mises stress of the layers on either side (the layer above alone
-        on a rigid core) [MPa].
+    shear_range, peel_range : largest minus smallest value, where 0, far from the nip, counts too
+        [MPa].
+    von_mises_max : largest von Mises stress of the layers on either side (on a rigid core, of the
+        layer above alone) [MPa].
     """
 
     roller: str
@@ -53,7 +54,7 @@ class InterfaceStress(Sealed):
 
     @property
     def pull(self) -> float:
-        """Largest tension across the interface, 0 where it is only pressed [MPa]."""
+        """Largest tension across the interface; 0 where it is compressed everywhere [MPa]."""
         return max(0.0, self.peel_max)
 
 
@@ -65,18 +66,18 @@ def interface_stresses(
     medium: tuple[str, float | None],
     beyond: FiniteFields | None = None,
 ) -> tuple[InterfaceStress, ...]:
-    """Stresses on every interface of a roller, from the surface to the core.
+    """Return the stresses on every interface of a roller, from the surface to the core.
 
     Parameters
     ----------
     name : of the roller.
     roller, tractions, beyond : as in ``interior_field``.
     x : (n,) increasing places [mm].
-    medium : geometry and speed, as there.
+    medium : geometry and speed, as in ``interior_field``.
 
     Returns
     -------
-    One for each layer, its lower face; empty for a roller without layers.
+    One for the lower face of each layer; empty for a roller without layers.
 
     Raises
     ------

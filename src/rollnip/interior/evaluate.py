@@ -1,4 +1,4 @@
-"""The field inside a roller, from the roller and its surface tractions."""
+"""The fields inside a roller under given surface tractions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rollnip.interior.transform import Transformed, fields_in_space, strain_of
 from rollnip.rollers import Roller
 
 _ROUNDING = 1e-12
-_ROWS, _COLUMNS = 128, 2048  # points at once: bounds the memory
+_ROWS, _COLUMNS = 128, 2048  # most points evaluated at once, which bounds the memory
 
 
 def interior_field(
@@ -32,10 +32,11 @@ def interior_field(
     window: float | None = None,
     beyond: FiniteFields | None = None,
 ) -> InteriorField:
-    """Displacements, stresses and strains inside a roller that rolls steadily.
+    """Return displacements, stresses and strains inside a roller in steady rolling.
 
-    f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk, f^ the transformed tractions times the
-    transfer of the layers to the depth z. As z -> 0 s_zz and s_xz tend to the tractions.
+    f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk, where f^ is the transform of the tractions
+    times the transfer function of the layers to the depth z. As z -> 0, s_zz and s_xz tend to the
+    tractions.
 
     Parameters
     ----------
@@ -44,34 +45,35 @@ def interior_field(
     tractions :
         on its surface, in its own frame.
     z :
-        (nz,) or scalar depths [mm], from 0 to the bottom of the coating (half-space core: finite).
+        (nz,) or scalar depths [mm], from 0 to the bottom of the coating; on a half-space core, any
+        depth.
     x :
         (nx,) or scalar places [mm], in any order.
     geometry :
-        "curved", "second" and "finite" bend the layers on a rigid core to rings; others keep
-        them flat.
+        in "curved", "second" and "finite" the layers on a rigid core are rings; in the others they
+        are flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.
     side :
-        the layer a depth on an interface belongs to: the one "above" it (nearer to the surface)
-        or "below" it.
+        the layer to which a depth on an interface belongs: the one "above" it (nearer to the
+        surface) or the one "below" it.
     window :
-        largest |x| that is accepted [mm]; None: half the circumference, any x of a plane.
+        largest |x| that is accepted [mm]; None: half the circumference, or any x on a plane.
     beyond :
-        what finite strain adds under these tractions; None: the fields of linear theory.
+        what finite strain adds under these tractions; None: the fields are those of linear theory.
 
     Returns
     -------
-    InteriorField; arrays of shape (nz, nx). Stresses and displacements err by about 1e-8 of
-    their largest; strains of a viscoelastic layer by 1e-5 and their rates by 1e-3 closer to the
-    surface than a hundredth of the width looked at.
+    InteriorField; arrays of shape (nz, nx). The error of stresses and displacements is about 1e-8
+    of their largest values. Nearer to the surface than a hundredth of the width covered by x, the
+    error is 1e-5 for strains of a viscoelastic layer and 1e-3 for their rates.
 
     Raises
     ------
     InvalidInputError
-        where the roller is a bare rigid core; a depth is negative or below the coating on a
-        rigid core; a place lies outside the window; a value is not finite or none is given; the
-        side is unknown; the speed is missing.
+        where the roller is a bare rigid core; a depth is negative, or below the coating on a rigid
+        core; a place lies outside the window; a value is not finite, or an array is empty; the side
+        is unknown; the speed is missing.
 
     References
     ----------
@@ -94,7 +96,7 @@ def interior_field(
 
 
 def _deformed(linear: InteriorField, beyond: Array) -> InteriorField:
-    """Return the fields of finite strain: linear ones and what is beyond, by `PARTS`."""
+    """Return the fields of finite strain: the linear ones plus those beyond, ordered as `PARTS`."""
     more = dict(zip(PARTS, beyond, strict=True))
     axial, energy = more.pop("s_yy"), more.pop("energy")
     return replace(
@@ -106,7 +108,7 @@ def _deformed(linear: InteriorField, beyond: Array) -> InteriorField:
 
 
 def _values(name: str, values: ArrayLike) -> Array:
-    """Finite values as (n,); a scalar counts as one."""
+    """Return finite values as (n,); a scalar becomes one value."""
     try:
         out = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError):
@@ -133,7 +135,7 @@ def _check_roller(roller: Roller, speed: float | None, side: str) -> None:
 
 
 def _checked_depths(z: Array, roller: Roller) -> Array:
-    """Depths inside the deformable body; those beyond its bottom by rounding are put on it."""
+    """Return depths inside the deformable body; put those below it by rounding on its bottom."""
     if np.any(z < 0.0):
         raise InvalidInputError(f"`z` must be zero or positive, got {float(z.min())!r}.")
     if roller.core is not None:
@@ -148,7 +150,7 @@ def _checked_depths(z: Array, roller: Roller) -> Array:
 
 
 def _in_pieces(medium: Medium, tractions: SurfaceTractions, z: Array, x: Array) -> Transformed:
-    """Fields computed for so many points at once that memory stays small."""
+    """Return the fields, computed in blocks of points so small that memory stays small."""
     parts = 11 if medium.is_viscoelastic else 5
     values = np.empty((parts, z.size, x.size))
     loss = np.empty(z.size)

@@ -1,4 +1,4 @@
-"""The field inside a roller: displacements, stresses, strains, and what follows from them."""
+"""The field inside a roller: displacements, stresses, strains and derived quantities."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from rollnip.interior.tractions import Array
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StressRanges(Sealed):
-    """Ranges of the stresses as material passes the nip: largest less smallest value.
+    """Ranges of the stresses as material passes the nip: largest minus smallest value.
 
-    The stress far from the nip, 0, counts too. Each revolution is one such cycle. Each range is
-    (nz,) [MPa].
+    The stress far from the nip, 0, counts too. Each revolution is one such cycle. Each range has
+    the shape (nz,) [MPa].
 
     Attributes
     ----------
-    s_xx, s_zz, s_xz : of the components.
-    von_mises, max_shear : of the invariants: their largest values.
+    s_xx, s_zz, s_xz : ranges of the components.
+    von_mises, max_shear : largest values of the invariants, which are their ranges from 0.
     """
 
     s_xx: Array
@@ -33,40 +33,41 @@ class StressRanges(Sealed):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class InteriorField(Sealed):
-    """Displacements, stresses and strains inside one roller, in its own frame.
+    """Displacements, stresses and strains inside one roller, in its own frame, in plane strain.
 
-    x along the nip towards the leading edge, z from the surface into the body; tension positive.
-    On ring layers x = R theta at every depth and the components are the polar ones: s_xx the hoop
-    stress, s_zz = s_rr, s_xz = -s_rt, u_x = u_t, u_z = -u_r. Plane strain.
+    x points along the nip towards the leading edge, z from the surface into the body; tension is
+    positive. In ring layers x = R theta at every depth, and the components are polar ones: s_xx is
+    the hoop stress, s_zz = s_rr, s_xz = -s_rt, u_x = u_t, u_z = -u_r.
 
-    At finite strain (``is_finite``) z is the undeformed depth and x the place where the material of
-    that depth is now: its abscissa over 1 - z/R. Stresses are Cauchy's. Components are along (x)
-    and across (z) the present line of that depth: at the surface they are the tractions, at an
-    interface or a bond what it carries. e_xx and e_zz are the stretches along and across that line
-    less 1, e_xz half the shear angle.
+    At finite strain (``is_finite``) z is the undeformed depth, and x is the place where the
+    material of that depth is now: its abscissa over 1 - z/R. Stresses are Cauchy stresses. Their
+    components are along (x) and across (z) the deformed line of that depth: at the surface they are
+    the tractions, at an interface or a bond the stresses that it carries. e_xx and e_zz are the
+    stretches along and across that line minus 1, e_xz is half the shear angle.
 
     Attributes
     ----------
     x : (nx,) [mm].
     z : (nz,) [mm].
-    layer : (nz,) index of the layer, 0 at the surface; the number of layers: the core.
+    layer : (nz,) index of the layer, 0 at the surface; the number of layers stands for the core.
     u_x, u_z :
-        (nz, nx) [mm]; on a half-space core relative, as if only wave numbers above 1/mm counted
-        in their logarithmic part (a plane-strain half-space sinks without end).
+        (nz, nx) [mm]; on a half-space core relative, with only wave numbers above 1/mm in their
+        logarithmic part, because a half-space in plane strain has no finite displacement.
     s_xx, s_zz, s_xz : (nz, nx) [MPa].
     e_xx, e_zz, e_xz : (nz, nx) strains, e_xz half the shear angle.
     loss_density :
-        (nz, nx) -V s_ij d(e_ij)/dx [MPa/s = mW/mm3]: the power that stress puts into a passing
-        volume, stored and given back or lost; its integral over x is the heat. Zero where elastic.
-        Within a few elements of the surface of a viscoelastic layer it has the logarithmic
-        spikes of a traction that is linear between nodes. Of linear theory at finite strain, too.
+        (nz, nx) -V s_ij d(e_ij)/dx [MPa/s = mW/mm3]: the stress power per volume of passing
+        material, whether stored and recovered or lost. Its integral over x is the heat. It is zero
+        where the material is elastic. Within a few elements of the surface of a viscoelastic layer
+        it has the logarithmic spikes of tractions that are linear between nodes. It is of linear
+        theory, at finite strain too.
     loss_per_depth :
-        (nz,) int loss_density (1 - z/R) dx over all x [N/(mm s)] (flat layers: without the
-        factor): heat per depth and axial length; over 2 pi R the mean power per volume of a
-        turn. Its integral over the layers is the viscous dissipation of linear theory. Zero where
-        elastic.
+        (nz,) int loss_density (1 - z/R) dx over all x [N/(mm s)] (flat layers: without the factor):
+        the heat per depth and axial length. Divided by 2 pi R it is the mean power per volume over
+        a turn. Its integral over the layers is the viscous dissipation of linear theory. It is zero
+        where the material is elastic.
     poisson : (nz,) Poisson ratios.
-    axial : (nz, nx) axial stress at finite strain [MPa]; None: as in linear theory.
+    axial : (nz, nx) axial stress at finite strain [MPa]; None: that of linear theory.
     stored : (nz, nx) strain energy per undeformed volume at finite strain [MPa]; None: linear.
     """
 
@@ -89,12 +90,12 @@ class InteriorField(Sealed):
 
     @property
     def is_finite(self) -> bool:
-        """True where these are fields of finite strain, and not of linear theory."""
+        """Whether the fields are those of finite strain and not of linear theory."""
         return self.axial is not None
 
     @property
     def s_yy(self) -> Array:
-        """Axial stress of plane strain, linear nu (s_xx + s_zz), (nz, nx) [MPa]."""
+        """Axial stress of plane strain, in linear theory nu (s_xx + s_zz), (nz, nx) [MPa]."""
         if self.axial is not None:
             return self.axial
         return self.poisson[:, None] * (self.s_xx + self.s_zz)
@@ -116,7 +117,10 @@ class InteriorField(Sealed):
 
     @property
     def max_shear(self) -> Array:
-        """Half of largest less smallest principal stress, the axial one included (Tresca) [MPa]."""
+        """Half the difference of the largest and smallest of all principal stresses [MPa].
+
+        The axial stress counts as one of them (Tresca).
+        """
         largest = np.maximum(self.s_1, self.s_yy)
         return np.asarray(0.5 * (largest - np.minimum(self.s_2, self.s_yy)))
 
@@ -136,7 +140,7 @@ class InteriorField(Sealed):
     def energy_density(self) -> Array:
         """s_ij e_ij/2, (nz, nx) [MPa = mJ/mm3]: the strain energy where the layer is elastic.
 
-        At finite strain the strain energy itself, per undeformed volume.
+        At finite strain it is the strain energy itself, per undeformed volume.
         """
         if self.stored is not None:
             return self.stored
@@ -145,7 +149,7 @@ class InteriorField(Sealed):
 
     @property
     def ranges(self) -> StressRanges:
-        """Stress range at each depth over one revolution, from the places ``x``."""
+        """Stress ranges at each depth over one revolution, from the values at the places ``x``."""
         names = ("s_xx", "s_zz", "s_xz", "von_mises", "max_shear")
         return StressRanges(**{name: _range(getattr(self, name)) for name in names})
 

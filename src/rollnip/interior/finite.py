@@ -1,11 +1,13 @@
 """What finite strain adds to the linear fields inside a covering.
 
-The difference of two solutions by finite elements, of finite strain and linear, under the same
-tractions at present places: their errors are alike and cancel. Both are seen on the two lines of
-Gauss of every row of elements, where stresses of nine-node elements are most accurate, and are
-linear over the depth of a row between and beyond these. At the surface both carry the tractions.
+It is the difference of two finite-element solutions, of finite strain and linear, under the same
+tractions at deformed places; their discretisation errors are alike and cancel. Both solutions are
+evaluated on the two Gauss lines of every row of elements, where stresses of nine-node elements are
+most accurate. Over the depth of a row, the fields are linear through the values on these two lines.
+At the surface both solutions carry the tractions.
 
-The linear solution is that of finite strain under tractions so small that their square is nothing.
+The linear solution is the solution of finite strain under tractions so small that second-order
+terms vanish.
 """
 
 from __future__ import annotations
@@ -33,18 +35,18 @@ from rollnip.rollers import Roller
 
 Speeds = tuple[float, float]
 _COLUMNS = 48  # elements under the tractions
-_GROWTH = 1.5  # of elements beside them
-_LONGEST = 1.0  # element, over the thickness that counts
-_REACH = 8.0  # of the mesh beyond the tractions, over the same thickness
-_LEAST_THICKNESS = 0.5  # that counts, over the half-width
-_TURN = 2.5  # of the radius: how far arcs reach at most
+_GROWTH = 1.5  # ratio of the lengths of neighbouring elements beside the tractions
+_LONGEST = 1.0  # longest element, over the thickness (see `_LEAST_THICKNESS`)
+_REACH = 8.0  # how far the mesh extends beyond the tractions, over the same thickness
+_LEAST_THICKNESS = 0.5  # smallest value of that thickness, over the half-width
+_TURN = 2.5  # largest arc to which the mesh extends, over the radius
 _NEAR = 2.0  # half-widths up to which places are abscissae
-_SPLIT = 2  # rows made of one that a contact needs
-_SMALL = 1e-5  # share of the tractions that is linear
-_STILL = 1e-4  # last step of the linear solution; its error is of the square
-_ALIGNED = 1e-3  # distance of columns from their places, over twice the half-width
+_SPLIT = 2  # rows of elements for each row that the contact itself needs
+_SMALL = 1e-5  # share of the tractions at which the response is linear
+_STILL = 1e-4  # last Newton step of the linear solution; its error is of the order of the square
+_ALIGNED = 1e-3  # allowed distance of columns from their places, over twice the half-width
 _MOST_MESHES = 4
-_MOST_PARTS = 8  # steps of the tractions where one does not do
+_MOST_PARTS = 8  # most steps in which the tractions are applied, where one step fails
 _GAUSS = 1.0 / np.sqrt(3.0)
 _ALONG = np.array([-_GAUSS, -_GAUSS, _GAUSS, _GAUSS])
 _DOWN = np.array([-_GAUSS, _GAUSS, -_GAUSS, _GAUSS])
@@ -53,14 +55,14 @@ _CARRIED = tuple(PARTS.index(name) for name in ("s_zz", "s_xz"))
 
 @dataclass(frozen=True, eq=False)
 class FiniteFields:
-    """Fields of finite strain less those of linear theory.
+    """Fields of finite strain minus those of linear theory.
 
     Attributes
     ----------
-    ends : (rows + 1,) depths of the ends of rows of elements [mm].
-    places, values : (rows, 2, n) and (parts, rows, 2, n) at finite strain on the two lines of Gauss
-        of each row, the parts named by `rollnip.finite.PARTS`.
-    linear_places, linear_values : the same of linear theory.
+    ends : (rows + 1,) depths of the boundaries of the rows of elements [mm].
+    places, values : (rows, 2, n) and (parts, rows, 2, n), at finite strain on the two Gauss lines
+        of each row; parts as in `rollnip.finite.PARTS`.
+    linear_places, linear_values : the same for linear theory.
     """
 
     ends: Array
@@ -73,14 +75,14 @@ class FiniteFields:
     def of(
         cls, roller: Roller, tractions: SurfaceTractions, speeds: Speeds | None = None
     ) -> FiniteFields | None:
-        """Return the fields under tractions in the roller's own frame; None where none are found.
+        """Return the fields under tractions in the own frame; None if there is no equilibrium.
 
         Parameters
         ----------
         roller : with layers on a rigid core.
-        tractions : at present places, along the present tangent and normal.
-        speeds : of linear theory and of the roller's undeformed surface [mm/s]; None: no
-            material is viscoelastic.
+        tractions : at deformed places, along the deformed tangent and normal.
+        speeds : speed V of linear theory, and that of the roller's undeformed surface [mm/s]; None:
+            no material is viscoelastic.
         """
         for split, columns in ((_SPLIT, _COLUMNS), (1, _COLUMNS // 2)):
             try:
@@ -106,13 +108,13 @@ class FiniteFields:
             upper, lower = lines[int(row)][:, 0], lines[int(row)][:, 1]
             share = 0.5 * (eta / _GAUSS + 1.0)
             out[:, place] = (1.0 - share) * upper + share * lower
-            if row == 0:  # at the surface both carry the tractions
+            if row == 0:  # at the surface both solutions carry the tractions: no difference
                 for part in _CARRIED:
                     out[part, place] = (eta + 1.0) * _through_zero(upper[part], lower[part], eta)
         return out
 
     def _lines(self, row: int, x: Array) -> Array:
-        """Return the difference on both lines of a row, (parts, 2, nx)."""
+        """Return the difference of both solutions on both lines of a row, (parts, 2, nx)."""
         out = np.zeros((len(PARTS), 2, x.size))
         for line in range(2):
             for sign, places, values in (
@@ -130,7 +132,7 @@ class FiniteFields:
 def beyond_linear(
     roller: Roller, geometry: str, tractions: SurfaceTractions, speeds: Speeds | None = None
 ) -> FiniteFields | None:
-    """Return what finite strain adds to the linear fields inside a roller; None for nothing.
+    """Return what finite strain adds to the linear fields inside a roller; None if nothing.
 
     It adds something in geometry "finite", to layers on a rigid core that carry a load. ``speeds``
     are as in `FiniteFields.of`.
@@ -142,7 +144,7 @@ def beyond_linear(
 
 
 def _through_zero(upper: Array, lower: Array, eta: float) -> Array:
-    """Return what is linear in eta and has the given values over 1 + eta at -+ 1/sqrt(3)."""
+    """Return the linear function of eta with the given values over 1 + eta at -+1/sqrt(3)."""
     first, second = upper / (1.0 - _GAUSS), lower / (1.0 + _GAUSS)
     share = 0.5 * (eta / _GAUSS + 1.0)
     return np.asarray((1.0 - share) * first + share * second)
@@ -186,7 +188,7 @@ def _sampled(fields: tuple[Array, Array]) -> tuple[Array, Array]:
 
 
 def _weak(acting: Tractions, curvature: float) -> Tractions:
-    """Return the tractions of linear theory, small: at arcs, which do not move."""
+    """Return the small tractions of the linear solution, at undeformed arcs."""
 
     def at(x: Array) -> Array:
         arcs = x if curvature == 0.0 else np.arcsin(np.clip(curvature * x, -1.0, 1.0)) / curvature
@@ -200,7 +202,7 @@ def _weak(acting: Tractions, curvature: float) -> Tractions:
 def _equilibrium(
     flat: Body, linear: MeshState, acting: Tractions, near: float
 ) -> tuple[Body, MeshState]:
-    """Return the equilibrium on a mesh whose columns are at the places of the linear one, now."""
+    """Return the equilibrium on a mesh whose deformed columns lie at the places of ``flat``."""
     places, allowed = flat.strip.ends, _ALIGNED * near
     circle = (flat.strip.depths.roller.curvature, near)
     body, state = flat, _reached(flat, linear, acting)
@@ -217,7 +219,7 @@ def _equilibrium(
 
 
 def _reached(body: Body, linear: MeshState, acting: Tractions) -> MeshState:
-    """Solve for the tractions at once, or in steps that are halved as long as they must be."""
+    """Return the equilibrium under the tractions, applied at once or in as many steps as needed."""
     try:
         return body.equilibrium(acting, linear)
     except NoEquilibriumError:
@@ -242,7 +244,7 @@ def _share(acting: Tractions, share: float) -> Tractions:
 
 
 def _depths(roller: Roller, half_width: float, split: int) -> Depths:
-    """Return rows of elements, ``split`` for one that a contact of this size needs."""
+    """Return rows of elements, ``split`` rows for each one that a contact of this size needs."""
     depths = Depths.of(roller, half_width)
     parts = np.linspace(0.0, 1.0, split + 1)[1:]
     inner = depths.ends[:-1, None] + np.diff(depths.ends)[:, None] * parts
@@ -250,7 +252,7 @@ def _depths(roller: Roller, half_width: float, split: int) -> Depths:
 
 
 def _columns(roller: Roller, loaded: Array, columns: int) -> Array:
-    """Return ends of elements: as dense as the nodes of the tractions, growing beside them."""
+    """Return the ends of columns: as dense as the nodes of the tractions, longer beside them."""
     number = np.linspace(0.0, loaded.size - 1.0, columns + 1)
     under = np.interp(number, np.arange(loaded.size), loaded)
     half_width = 0.5 * float(np.ptp(loaded))

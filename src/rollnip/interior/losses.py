@@ -1,4 +1,4 @@
-"""The work that a viscoelastic covering turns into heat, from the loss part of its compliance."""
+"""The heat generated in a viscoelastic covering, from the loss part of its compliance."""
 
 from __future__ import annotations
 
@@ -17,15 +17,16 @@ from rollnip.rollers import Roller
 Array = NDArray[np.float64]
 
 _SHORTEST = 1e3
-"""Largest wave number times half the contact.
+"""Largest wave number times half the nip width.
 
-With k Im C |t|^2 and t ~ k^-3/2, as of tractions that end as a square root, 1e-3 is left out where
-a memory is shorter than that length, and 1e-9 where it is as long as the contact.
+The integrand is k Im C |t|^2 with t ~ k^-3/2, as for tractions that end as a square root. What is
+left out is 1e-3 of the loss where a memory is shorter than that wavelength, and 1e-9 where it is as
+long as the contact.
 """
 _SIZES_PER_OCTAVE = 4
-"""Half-widths in an octave for which wave numbers are kept."""
+"""Number of half-widths in an octave for which wave numbers are kept."""
 _FADED = 16.0
-"""Largest depth times wave number that counts: the work goes as e^(-2 k z), there 1e-14."""
+"""Largest depth times wave number that counts: the work decays as e^(-2 k z), to 1e-14 there."""
 
 
 def loss_per_distance(
@@ -34,36 +35,38 @@ def loss_per_distance(
     """Return the heat that steady rolling generates in a roller, per distance and axial length.
 
     The work of the tractions on the moving surface is -int t . du = (1/pi) int_0^inf k t^H L t dk
-    with L = (C - C^H)/(2 i), the loss part of the compliance C(k): elastic parts take no share.
-    L is positive semi-definite for every passive material and the weights of the quadrature are
-    positive, so the sum is not negative, whatever the mesh; and exactly 0 for an elastic roller.
+    with L = (C - C^H)/(2 i), the loss part of the compliance C(k); elastic parts do not contribute.
+    L is positive semi-definite for every passive material, and the weights of the quadrature are
+    positive. The sum is therefore never negative, whatever the mesh, and exactly 0 for an elastic
+    roller.
 
     Parameters
     ----------
     roller :
-        any; a bare rigid one loses nothing.
+        any; a bare rigid core loses nothing.
     tractions :
         on its surface, in its own frame.
     geometry :
-        "curved", "second" and "finite" bend the layers on a rigid core to rings; others keep
-        them flat.
+        in "curved", "second" and "finite" the layers on a rigid core are rings; in the others they
+        are flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.
 
     Returns
     -------
-    Loss [N/mm]; times the speed of the roller [mm/s]: mW per mm of the face.
+    Loss [N/mm]; multiplied by the speed of the roller [mm/s] it is the power in mW per mm of the
+    face.
 
     References
     ----------
-    Christensen (1971), Theory of Viscoelasticity, section 1.6 (energy lost in a cycle); Parseval's
-    theorem makes a sum of cycles of steady rolling.
+    Christensen (1971), Theory of Viscoelasticity, section 1.6 (energy lost in a cycle); by
+    Parseval's theorem steady rolling is a sum of cycles.
     """
     if not roller.is_viscoelastic:
         return 0.0
     blocks, k, xx, zz, xz = _loss_parts(roller, speed, geometry, _shared_size(tractions))
     phases, kinks = Phases(tractions.places), tractions.kinks
-    # The first block takes moments (`SMALL_PHASE`), not these sums.
+    # In the first block, moments take the place of these sums (see `SMALL_PHASE`).
     sums = [np.zeros((2, blocks[0].k.size)), *(phases.sums(block, kinks) for block in blocks[1:])]
     t_x, t_z = tractions.transform(k, np.concatenate(sums, axis=1))
     turning = t_x.real * t_z.imag - t_x.imag * t_z.real  # Im(conj(t_x) t_z)
@@ -90,12 +93,12 @@ def loss_below(
     geometry: str,
     speed: float | None,
 ) -> Array:
-    """Return the heat that rolling generates below some depths, per distance and axial length.
+    """Return the heat that rolling generates below given depths, per distance and axial length.
 
-    What lies below the depth z receives the work of the stresses on its upper face; as on the
-    surface, w(z) = (1 - z/R) (1/pi) int_0^inf k Im(conj(t) . u) dk with t = (-s_xz, -s_zz) and u
-    the transforms at that depth (flat layers: without the factor 1 - z/R). So w(0) is
-    `loss_per_distance`, w(z1) - w(z2) is made between two depths, and nothing is lost between.
+    What lies below the depth z receives the work of the stresses on its upper face. As on the
+    surface, w(z) = (1 - z/R) (1/pi) int_0^inf k Im(conj(t) . u) dk, where t = (-s_xz, -s_zz) and u
+    are the transforms at that depth (flat layers: without the factor 1 - z/R). So w(0) is
+    `loss_per_distance`, and w(z1) - w(z2) is generated between the depths z1 and z2.
 
     Parameters
     ----------
@@ -104,7 +107,7 @@ def loss_below(
     tractions :
         on its surface, in its own frame.
     z :
-        (nz,) depths [mm], from 0 to the bottom of the coating (half-space core: finite).
+        (nz,) depths [mm], from 0 to the bottom of the coating; on a half-space core, any depth.
     geometry, speed :
         as for `loss_per_distance`.
 
@@ -135,7 +138,7 @@ def loss_below(
 def _shared_size(tractions: SurfaceTractions) -> float:
     """Return a half-width just above that of the tractions, the same for all meshes of a nip.
 
-    Meshes of one nip differ little in width, so they share their wave numbers.
+    Meshes of one nip differ little in width, so that they share their wave numbers.
     """
     octaves = ceil(_SIZES_PER_OCTAVE * log2(tractions.half_width)) / _SIZES_PER_OCTAVE
     return float(2.0**octaves)

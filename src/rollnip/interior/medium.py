@@ -1,4 +1,4 @@
-"""A roller as the transform sees it: moduli at every wave number, the layer of every depth."""
+"""A roller in the Fourier domain: moduli at every wave number, and the layer at every depth."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ IntArray = NDArray[np.intp]
 Side = Literal["above", "below"]
 
 _FRACTIONAL = 256.0
-"""Panels end this many times lower for a material whose modulus has a root, no pole, at w = 0."""
+"""Factor by which panels end lower for a material whose modulus has a branch point, not a pole, at
+w = 0.
+"""
 _SAME_DEPTH = 1e-12
 
 
@@ -29,10 +31,10 @@ class Medium:
 
     Attributes
     ----------
-    roller : not a bare rigid one.
-    speed : V [mm/s]; None where all is elastic.
-    geometry : "curved", "second" or "finite" bends the layers to rings.
-    side : "above" or "below": the layer that a depth on an interface belongs to.
+    roller : with layers or a half-space core.
+    speed : V [mm/s]; None where all materials are elastic.
+    geometry : in "curved", "second" and "finite" the layers on a rigid core are rings.
+    side : "above" or "below": the layer to which a depth on an interface belongs.
     """
 
     roller: Roller
@@ -42,7 +44,7 @@ class Medium:
 
     @cached_property
     def is_ring(self) -> bool:
-        """Return whether the layers are treated as curved."""
+        """Whether the layers are treated as rings."""
         return is_ring(self.roller, self.geometry)
 
     @property
@@ -52,7 +54,7 @@ class Medium:
 
     @property
     def is_viscoelastic(self) -> bool:
-        """Return whether any material of the roller is viscoelastic."""
+        """Whether any material of the roller is viscoelastic."""
         return self.roller.is_viscoelastic
 
     @cached_property
@@ -68,31 +70,32 @@ class Medium:
 
     @cached_property
     def slowest(self) -> float:
-        """Longest length in the compliance besides that of the waves [mm].
+        """Longest length in the compliance, other than a wavelength [mm].
 
-        A stiff layer on a soft one bends over its thickness times the cube root of the contrast.
+        A stiff layer on a soft one bends over its thickness times the cube root of the ratio of
+        moduli.
         """
         moduli = [m.relaxed_modulus for m in self.roller.materials]
         contrast = max(moduli) / min(moduli)
         return max(self.roller.coating_thickness * float(np.cbrt(contrast)), self.memory)
 
     def layers_of(self, z: Array) -> IntArray:
-        """Index of the layer of each depth, (nz,); the core is the last."""
+        """Return the index of the layer at each depth, (nz,); the core is the last."""
         bounds = np.array(self.roller.interfaces)
         slack = _SAME_DEPTH * bounds * (1.0 if self.side == "above" else -1.0)
         owner = np.searchsorted(bounds + slack, z, side="left" if self.side == "above" else "right")
         return np.asarray(np.minimum(owner, len(self.roller.materials) - 1))
 
     def poisson_of(self, layers: IntArray) -> Array:
-        """Poisson ratio of each layer index."""
+        """Return the Poisson ratio of each layer index."""
         return np.asarray(np.array([m.poisson for m in self.roller.materials])[layers])
 
     def moduli(self, k: Array) -> list[Array | ComplexArray]:
-        """Young's modulus of each material at the wave numbers ``k`` [MPa]."""
+        """Return Young's modulus of each material at the wave numbers ``k`` [MPa]."""
         return [_modulus(material, k, self.speed) for material in self.roller.materials]
 
     def fields(self, k: Array, z: Array, transforms: ComplexArray) -> LayerFields:
-        """Fields at the depths ``z`` under the transformed tractions (2, n)."""
+        """Return the fields at the depths ``z`` under the transformed tractions (2, n)."""
         roller, moduli = self.roller, self.moduli(k)
         thickness = np.array([layer.thickness for layer in roller.layers])
         poisson = np.array([layer.material.poisson for layer in roller.layers])
@@ -111,7 +114,7 @@ class Medium:
         )
 
     def low_limit(self, k: float) -> complex:
-        """1/(2G) of a half-space core at the low wave number k [1/MPa]; 0 on a rigid core."""
+        """Return 1/(2G) of a half-space core at a low wave number k [1/MPa]; 0 on a rigid core."""
         core = self.roller.core
         if core is None:
             return 0.0
@@ -120,7 +123,7 @@ class Medium:
 
 
 def _modulus(material: Material, k: Array, speed: float | None) -> Array | ComplexArray:
-    """Modulus at each wave number of steady rolling: s = -i k V."""
+    """Return the modulus at each wave number in steady rolling, s = -i k V."""
     if material.is_elastic or speed is None:
         return np.full(k.shape, material.relaxed_modulus)
     return material.modulus_at(-1j * k * speed)

@@ -34,14 +34,14 @@ import numpy as np
 from rollnip.interior.tractions import Array, ComplexArray, SurfaceTractions
 
 _NEAREST = 1e-12
-"""Smallest depth in ln y, over the half-width: keeps k t finite at the nodes of the surface."""
+"""Smallest depth in ln y, over the half-width; it keeps k t finite at the nodes on the surface."""
 
 
 @dataclass(frozen=True, slots=True)
 class WaveNumberPowers:
-    """Tractions times powers of the wave number: k^-1 t, t, k t, k^2 t, of t_x and t_z.
+    """Tractions times powers of the wave number: k^-1 t, t, k t and k^2 t, for t_x and t_z.
 
-    Each a pair of arrays of one shape: functions of k (transforms) or of x (their Phi).
+    Each is a pair of arrays of one shape, functions of k (transforms) or of x (their Phi).
     """
 
     minus: ComplexArray
@@ -50,7 +50,7 @@ class WaveNumberPowers:
     two: ComplexArray
 
     def raised(self) -> WaveNumberPowers:
-        """Return the powers times ik, for the derivative along x; its ``two`` must not be used."""
+        """Return the powers times ik, for the derivative along x; do not use their ``two``."""
         return WaveNumberPowers(1j * self.zero, 1j * self.one, 1j * self.two, self.two)
 
 
@@ -63,7 +63,7 @@ class Depth:
 
     @classmethod
     def of(cls, z: Array, curvature: float) -> Depth:
-        """Depths (nz,) as a column."""
+        """Return depths (nz,) as a column."""
         return cls(np.asarray(z)[:, None], curvature)
 
     @property
@@ -73,7 +73,7 @@ class Depth:
 
     @property
     def delta(self) -> Array:
-        """Z (1 - z/(2R)) [mm]."""
+        """The length z (1 - z/(2R)) [mm]."""
         return self.z * (1.0 - 0.5 * self.z * self.curvature)
 
     @property
@@ -84,12 +84,12 @@ class Depth:
         return -np.log1p(-self.z * self.curvature) / self.curvature
 
     def decay(self, k: Array) -> Array:
-        """e^{-k z'}, (nz, n)."""
+        """Return e^{-k z'}, (nz, n)."""
         return np.exp(-k * self.logarithmic)
 
 
 def half_space_stress(t: WaveNumberPowers, depth: Depth) -> ComplexArray:
-    """s_xx, s_zz, s_xz of a half-space or disc, (3, nz, n), without the decay."""
+    """Return s_xx, s_zz, s_xz of a half-space or disc, (3, nz, n), without the decay."""
     s0, s1 = -t.zero[1], -t.one[1]
     t0, t1 = -1j * t.zero[0], -1j * t.one[0]
     d, square = depth.delta, depth.rho**2
@@ -102,7 +102,7 @@ def half_space_stress(t: WaveNumberPowers, depth: Depth) -> ComplexArray:
 def half_space_displacement(
     t: WaveNumberPowers, depth: Depth, compliance: complex, poisson: float
 ) -> ComplexArray:
-    """u_x, u_z of a half-space with 1/(2G) = ``compliance``, (2, nz, n), without the decay."""
+    """Return u_x, u_z of a half-space with 1/(2G) = ``compliance``, (2, nz, n), undecayed."""
     a, b = 2.0 * (1.0 - poisson), 1.0 - 2.0 * poisson
     d = depth.delta
     u_x = a * t.minus[0] + 1j * b * t.minus[1] - d * (t.zero[0] + 1j * t.zero[1])
@@ -111,7 +111,7 @@ def half_space_displacement(
 
 
 def half_space_sinking(loads: Array, compliance: complex, poisson: float) -> Array:
-    """Real part of k u_x, k u_z of a half-space as k -> 0 under the line loads (2,) [mm]."""
+    """Return the real part of k u_x, k u_z of a half-space as k -> 0 under line loads (2,) [mm]."""
     a, b = 2.0 * (1.0 - poisson), 1.0 - 2.0 * poisson
     along, inward = loads
     sinking = compliance * np.array([a * along + 1j * b * inward, a * inward - 1j * b * along])
@@ -127,7 +127,7 @@ def spectral_powers(transforms: ComplexArray, k: Array) -> WaveNumberPowers:
 def potentials(
     tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool
 ) -> WaveNumberPowers:
-    """Phi_-1, Phi_0, Phi_1 and, where ``two``, Phi_2 of t_x and t_z at one depth, (2, x).
+    """Return Phi_-1, Phi_0, Phi_1 and, with ``two``, Phi_2 of t_x and t_z at one depth, (2, x).
 
     ``x`` are places from the centre of the tractions.
     """

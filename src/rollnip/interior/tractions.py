@@ -1,10 +1,11 @@
 """Surface tractions that are linear between nodes: their Fourier transform and their kinks.
 
-With t(x) linear between the nodes x_j and zero at both ends, t'' = sum kappa_j delta(x - x_j), so
+For t(x) linear between the nodes x_j and zero at both ends, t'' = sum kappa_j delta(x - x_j), so
+that
 
     t^(w) = int t e^{-iwx} dx = -(1/w^2) sum kappa_j e^{-i w x_j},
 
-exact for every w; near w = 0, where the sum cancels, the series of the moments is used.
+exact for every w. Near w = 0, where the sum cancels, the series in moments is used.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _MOMENTS = 14
-"""Moments for phases below `SMALL_PHASE`: they leave 0.625^14/16! < 1e-16 of the first one."""
+"""Number of moments for phases below `SMALL_PHASE`: they leave 0.625^14/16! < 1e-16 of the first
+one.
+"""
 
 
 @dataclass(frozen=True)
@@ -58,12 +61,12 @@ class SurfaceTractions:
 
     @classmethod
     def on_inner(cls, nodes: Array, t_x: Array, t_z: Array) -> SurfaceTractions:
-        """Tractions (n-2,) at the inner nodes of ``nodes`` (n,), zero at both ends."""
+        """Return tractions given (n-2,) at the inner nodes of ``nodes`` (n,), zero at both ends."""
         return cls(nodes, np.pad(t_x, 1), np.pad(t_z, 1))
 
     @property
     def centre(self) -> float:
-        """Middle of the nodes [mm]: the origin of phases."""
+        """Middle between the outermost nodes [mm]; the origin of phases."""
         return 0.5 * float(self.nodes[0] + self.nodes[-1])
 
     @property
@@ -94,7 +97,7 @@ class SurfaceTractions:
         Parameters
         ----------
         w : (n,) wave numbers [1/mm], positive.
-        sums : (2, n) sum kappa_j e^{-i w x_j} where they are known; small phases do not use them.
+        sums : (2, n) sum kappa_j e^{-i w x_j}, if known; not used for small phases.
         """
         if sums is None:
             sums = self.kinks @ np.exp(-1j * np.outer(self.places, w))

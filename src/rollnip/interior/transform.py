@@ -1,10 +1,11 @@
-"""Fields in space from the transforms of the tractions and of the layers.
+"""Fields in space from the transforms of the tractions and the transfer functions of the layers.
 
-f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk. At the depth z the transform falls as e^{-kz}:
-a row of points needs wave numbers up to about 16/z only. Rows too close to the surface for that,
-in the top layer, have their half-space part taken out of the transform and added in closed form;
-what is left falls as e^{-k(2d-z)}, d the thickness of the top layer. Measured against an FFT at
-equal error this is two to five times as fast (docs/decisions/0004-interior.md).
+f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk. At the depth z the transform decays as e^{-kz},
+so that a row of points needs wave numbers up to about 16/z only. Rows in the top layer that are too
+close to the surface for that have their half-space part subtracted in the transform and added in
+closed form; the remainder decays as e^{-k(2d-z)}, where d is the thickness of the top layer.
+Measured against an FFT at equal error this is two to five times as fast
+(docs/decisions/0004-interior.md).
 """
 
 from __future__ import annotations
@@ -29,12 +30,15 @@ from rollnip.interior.tractions import Array, ComplexArray, SurfaceTractions
 from rollnip.interior.waves import Phases, Waves
 
 _FADED = 16.0
-"""k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
+"""k z at which a transform has decayed to e^-16; what is left out is 1e-8 of the peak."""
 _MOST_PANELS = 32
-"""Widths P of panels that rows near the surface are worth; below their reach: closed form."""
+"""Largest number of panel widths P used for rows near the surface; rows that need more get the
+closed form.
+"""
 _THINNEST = 5e-4
-"""Of the half-width: rows in thinner layers get no more wave numbers than those at this depth. What
-is left out of tractions that go as a root at their edges is 4e-3 of the peak there."""
+"""Depth over the half-width, below which rows in thin layers get no more wave numbers. For
+tractions that end as a square root, 4e-3 of the peak there is left out.
+"""
 AnyArray = NDArray[Any]
 
 _STRESS, _STRAIN, _RATE = slice(2, 5), slice(5, 8), slice(8, 11)
@@ -47,7 +51,7 @@ class Rows:
     Attributes
     ----------
     z : (nz,) depths [mm].
-    layers, poisson : (nz,) of each depth.
+    layers, poisson : (nz,) layer and Poisson ratio at each depth.
     near : (nz,) True where the half-space part is added in closed form.
     last : (nz,) largest wave number needed [1/mm].
     """
@@ -60,17 +64,17 @@ class Rows:
 
     @property
     def cut(self) -> float:
-        """Wave number whose modulus the half-space part has: the end of the near rows' own."""
+        """Largest wave number of all rows, at which the half-space part takes its modulus."""
         return float(self.last.max())
 
     @classmethod
     def of(cls, medium: Medium, z: Array, waves: Waves, half_width: float) -> Rows:
-        """Sort the depths into near and far ones, under tractions of a half-width [mm]."""
+        """Return the rows, divided into near and far ones, under tractions of a half-width [mm]."""
         layers = medium.layers_of(z)
         most = _MOST_PANELS * waves.width
         near = (layers == 0) & (z * most < _FADED)
         top = medium.roller.layers[0].thickness if medium.roller.layers else np.inf
-        # Half-space and layer differ by what the bottom of the top layer sends back.
+        # Layer and half-space differ by what the bottom of the top layer reflects.
         echo = np.maximum(most, _FADED / np.maximum(2.0 * top - z, top))
         direct = _FADED / np.maximum(z, _FADED / (most + _FADED / top))
         last = np.minimum(np.where(near, echo, direct), _FADED / (_THINNEST * half_width))
@@ -93,7 +97,7 @@ class Transformed:
 
 
 def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Array) -> Transformed:
-    """Fields at depths ``z`` and places ``x`` [mm]."""
+    """Return the fields at depths ``z`` and places ``x`` [mm]."""
     places = x - tractions.centre
     reach = float(np.max(np.abs(places))) + tractions.half_width
     deepest = float(np.max(Depth.of(z, medium.curvature).logarithmic))
@@ -123,7 +127,7 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
 
 
 def _span(rows: IntArray) -> IntArray | slice:
-    """Increasing rows as a slice where none is left out: numpy adds there in place."""
+    """Return increasing rows as a slice where none is left out: numpy adds to slices in place."""
     is_whole = rows.size > 0 and rows[-1] - rows[0] == rows.size - 1
     return slice(int(rows[0]), int(rows[-1]) + 1) if is_whole else rows
 
@@ -131,7 +135,7 @@ def _span(rows: IntArray) -> IntArray | slice:
 def _spectrum(
     medium: Medium, rows: Rows, active: IntArray, k: Array, transforms: ComplexArray
 ) -> ComplexArray:
-    """Transforms of all quantities, (parts, rows, k)."""
+    """Return the transforms of all quantities, (parts, rows, k)."""
     fields = medium.fields(k, rows.z[active], transforms)
     if not medium.is_viscoelastic:
         return np.stack(fields)
@@ -144,7 +148,7 @@ def _spectrum(
 
 
 def strain_of(stress: AnyArray, poisson: Array, modulus: AnyArray) -> AnyArray:
-    """e_xx, e_zz, e_xz of plane strain from s_xx, s_zz, s_xz; poisson (nz,), modulus (nz, n)."""
+    """Return e_xx, e_zz, e_xz of plane strain from stresses; poisson (nz,), modulus (nz, n)."""
     nu = poisson[:, None]
     s_xx, s_zz, s_xz = stress
     law = np.stack([(1.0 - nu) * s_xx - nu * s_zz, (1.0 - nu) * s_zz - nu * s_xx, s_xz])
@@ -152,7 +156,7 @@ def strain_of(stress: AnyArray, poisson: Array, modulus: AnyArray) -> AnyArray:
 
 
 def _loss(spectrum: ComplexArray, weights: Array) -> Array:
-    """-int s_ij d(e_ij)/dx dx by Parseval's theorem: -(1/pi) int_0 Re[s conj(ik e)] dk."""
+    """Return -int s_ij d(e_ij)/dx dx by Parseval's theorem, -(1/pi) int_0 Re[s conj(ik e)] dk."""
     shear = np.array([1.0, 1.0, 2.0])
     stress, rate = spectrum[_STRESS], spectrum[_RATE]
     work = np.einsum("c,czk,czk->zk", shear, stress.real, rate.real)
@@ -161,18 +165,21 @@ def _loss(spectrum: ComplexArray, weights: Array) -> Array:
 
 
 def _product(spectrum: ComplexArray, phases: ComplexArray) -> Array:
-    """Re[spectrum e^{ikx}] summed over k, as one real product; ``phases`` are e^{-ikx} (x, k)."""
+    """Return Re[spectrum e^{ikx}] summed over k, as one real product.
+
+    ``phases`` are e^{-ikx}, (x, k).
+    """
     parts, rows, size = spectrum.shape
     left = np.ascontiguousarray(spectrum).reshape(parts * rows, size).view(float)
     return np.asarray(left @ phases.view(float).T).reshape(parts, rows, -1)
 
 
 class HalfSpacePart:
-    """The half-space part of the fields, with the modulus the top layer has at one wave number.
+    """The half-space part of the fields, with the modulus of the top layer at one wave number.
 
     Attributes
     ----------
-    compliance : 1/(2G) there [1/MPa].
+    compliance : 1/(2G) at that wave number [1/MPa].
     """
 
     def __init__(self, medium: Medium, cut: float) -> None:
@@ -200,7 +207,7 @@ def _take_out(
     active: IntArray,
     surface: tuple[Array, ComplexArray],
 ) -> None:
-    """Subtract from the near rows what is added to them in closed form."""
+    """Subtract from the near rows the part that is added to them in closed form."""
     k, transforms = surface
     inside = np.flatnonzero(rows.near[active])
     if inside.size == 0:
@@ -213,7 +220,10 @@ def _take_out(
 def _constants(
     half_space: HalfSpacePart, medium: Medium, rows: Rows, loads: Array, k: float
 ) -> Array:
-    """Factors of 1/k in the displacements as k -> 0, (2, nz, 1): the core's, less what is out."""
+    """Return the factors of 1/k in the displacements as k -> 0, (2, nz, 1).
+
+    They are those of the core, less those of the half-space part that was subtracted.
+    """
     core = medium.roller.materials[-1].poisson
     kept = half_space_sinking(loads, medium.low_limit(k), core)
     taken = half_space_sinking(loads, half_space.compliance, half_space.material.poisson)

@@ -1,11 +1,11 @@
 """Wave numbers of the inverse transform: panels that resolve the oscillation and the layers.
 
-(1/pi) int_0^W Re[f(w) e^{iwx}] dw by Gauss-Legendre panels: in octaves from w_0 up, where the
-layers and their memory change over each octave, and of widths P, 2P and 4P above, where w (x - s)
-of the farthest point x and traction s turns by not more than the nodes of a panel can follow. The
-wave numbers are non-equidistant as in the paper (Braat & Kalker 1993, figure 2); a long memory
-V tau or a half-space, which an equidistant mesh pays with its window, costs a few panels at the
-low end.
+(1/pi) int_0^W Re[f(w) e^{iwx}] dw is computed on Gauss-Legendre panels. From w_0 up, panels are
+octaves, over each of which the response of the layers and their memory changes. Above these, panels
+have the widths P, 2P and 4P, over which the phase w (x - s) between the farthest point x and
+traction s turns by no more than the nodes of a panel can resolve. The wave numbers are
+non-equidistant as in the paper (Braat & Kalker 1993, figure 2). For a long memory V tau or a
+half-space, an equidistant mesh needs a long window; here they cost a few panels at the low end.
 """
 
 from __future__ import annotations
@@ -22,17 +22,20 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _HALF_TURN = 20.0
-"""Half the width P times the reach: the phase y from the middle to the end of a panel."""
-# Numbers of nodes are even: none lies in the middle of its panel.
+"""Phase from the middle to the end of a panel of width P at the reach: half of P times the reach.
+"""
+# Numbers of nodes are even, so that none lies in the middle of its panel.
 _NODES_LOW = 16
 _NODES = 66
-"""On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes on 4P."""
+"""Nodes on panels of width P, 2P and 4P (`_NODES_LOW`: on narrower ones, at most P/2). For m nodes
+on 4P the error is (e y/(4 m))^(2m) < 1e-11, y the phase at the end of the panel.
+"""
 _OCTAVES = 5
-"""Octaves of panels below P that make a block; below it no phase exceeds `SMALL_PHASE`."""
+"""Octaves of panels below P that make a block; below that block no phase exceeds `SMALL_PHASE`."""
 SMALL_PHASE = _HALF_TURN * 0.5**_OCTAVES
-"""Phase of half the reach at the end of the first block."""
+"""Phase at half the reach at the end of the first block."""
 _MOST_AT_ONCE = 24
-"""Panels of 4P in a block at most."""
+"""Largest number of panels of width 4P in a block."""
 _MOST_OCTAVES = 60
 
 
@@ -44,13 +47,13 @@ def _gauss(nodes: int) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """Some panels in a row that are evaluated together.
+    """Consecutive panels that are evaluated together.
 
     Attributes
     ----------
     start : lower end of the first panel [1/mm].
-    middles, halves : (m,) of the panels [1/mm].
-    nodes : on each panel.
+    middles, halves : (m,) middles and half-widths of the panels [1/mm].
+    nodes : number of nodes on each panel.
     """
 
     start: float
@@ -72,16 +75,16 @@ class Block:
 
     @property
     def is_even(self) -> bool:
-        """Return whether all panels have the same width."""
+        """Whether all panels have the same width."""
         return bool(np.ptp(self.halves) == 0.0)
 
 
 class Phases:
-    """e^{-ikx} at some places x, block after block.
+    """The phases e^{-ikx} at given places x, for one block of wave numbers after the other.
 
-    Each is the phase of the middle of its panel times the phase from there to the node. Sines take
-    most of the time. So phases to the nodes below a middle are taken as the conjugates of those
-    above, phases on a panel as the squares of those on one of half its width; both are kept for
+    Each is the phase at the middle of its panel times the phase from there to the node. Most time
+    goes into sines. Therefore phases at nodes below a middle are the conjugates of those above it,
+    and phases on a panel are the squares of those on a panel of half its width. Both are kept for
     further blocks.
 
     Parameters
@@ -95,20 +98,20 @@ class Phases:
 
     def on(self, block: Block) -> ComplexArray:
         """Return the phases, (m, n)."""
-        if block.start == 0.0:  # squares of squares over many octaves would leave no digit
+        if block.start == 0.0:  # repeated squaring over many octaves would lose all digits
             return self._at(block.k)
         both = self._at(block.middles)[:, :, None] * self._from_middles(block)
         return np.asarray(both.reshape(self.x.size, -1))
 
     def sums(self, block: Block, weights: Array) -> ComplexArray:
-        """Return sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
+        """Return the sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
         if not block.is_even:
             return np.asarray(weights @ self.on(block))
         turned = weights[:, None, :] * self._at(block.middles).T
         return np.asarray(turned @ self._from_middles(block)[:, 0]).reshape(len(weights), -1)
 
     def _from_middles(self, block: Block) -> ComplexArray:
-        """Return phases from middles to nodes, (m, panels, nodes); those of one panel if even."""
+        """Return phases from middles to nodes, (m, panels, nodes); one panel if all are equal."""
         halves = block.halves[:1] if block.is_even else block.halves
         return np.stack([self._from_middle(half, block.nodes) for half in halves.tolist()], axis=1)
 
@@ -133,8 +136,8 @@ class Waves:
 
     Attributes
     ----------
-    width : P, of the narrowest panel above the octaves [1/mm].
-    lowest : w_0, the first panel is [0, w_0] [1/mm].
+    width : P, the width of the narrowest panel above the octaves [1/mm].
+    lowest : w_0; the first panel is [0, w_0] [1/mm].
     """
 
     width: float
@@ -165,10 +168,10 @@ class Waves:
         return blocks
 
     def logarithm(self) -> float:
-        """Return the correction of the sum, per c, where the integrand has a part c/k.
+        """Return the correction of the sum per unit of c, where the integrand has a part c/k.
 
-        That is the finite part of int_0 dk/k, for which only wave numbers above 1/mm count, less
-        the sum over the nodes of the lowest panel; over pi.
+        It is the finite part of int_0 dk/k, to which only wave numbers above 1/mm contribute, minus
+        the sum over the nodes of the lowest panel; all over pi.
         """
         first = self.blocks(0.0)[0]
         inside = slice(0, _NODES_LOW)
@@ -176,6 +179,6 @@ class Waves:
 
 
 def _block(edges: NDArray[Any], nodes: int, width: float | None = None) -> Block:
-    """Return panels between ``edges``; all of one ``width`` where it is given."""
+    """Return the panels between ``edges``, all of one ``width`` if it is given."""
     halves = 0.5 * np.diff(edges) if width is None else np.full(edges.size - 1, 0.5 * width)
     return Block(float(edges[0]), 0.5 * (edges[1:] + edges[:-1]), halves, nodes)

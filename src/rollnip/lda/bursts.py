@@ -1,4 +1,4 @@
-"""The detector's signal, synthesised from a known surface speed."""
+"""The signal of the detector, synthesised from a known surface speed."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from rollnip.lda.volume import REACH, SpeedProfile
 
 Array = NDArray[np.float64]
 
-_PATH = 129  # points along a path; the phase is then right to 1e-5 of a cycle
+_PATH = 129  # points along a path; the phase is then accurate to 1e-5 of a cycle
 
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """Samples of the detector at one position, with what went into them.
+    """Samples of the detector at one position, and the parameters that they were made from.
 
     Attributes
     ----------
-    samples : (n,) noise of unit variance, and the bursts.
+    samples : (n,) noise of unit variance plus the bursts.
     rate : samples per second [Hz].
-    arrivals : (k,) times the scatterers pass the centre, from the first sample [s].
-    factors : (k,) their speed over the profile's.
+    arrivals : (k,) times at which the scatterers pass the centre, from the first sample [s].
+    factors : (k,) their speed over that of the profile.
     """
 
     samples: Array
@@ -44,13 +44,14 @@ def synthesise(
     spacing: float,
     rng: np.random.Generator,
 ) -> Record:
-    """Signal at the position ``x``.
+    """Return a simulated signal at the position ``x``.
 
-    Scatterers arrive at random (Poisson) with amplitudes from half to one and a half times the
-    nominal one. Each follows dx/dt = -v(x), so it is at s(t) from the centre, and its signal
-    depends on s alone: the velocity's change across the volume, and the broadening by a finite
-    stay, are in it exactly. The rollers' speed wavers by ``spread`` from one to the next; faster
-    ones arrive more often, so theirs is drawn with a chance in proportion to speed.
+    Scatterers arrive at random (Poisson), with amplitudes from half to one and a half times the
+    nominal one. Each follows dx/dt = -v(x), which gives its distance s(t) from the centre, and its
+    signal depends on s alone. The change of velocity across the volume and the transit-time
+    broadening are thus included exactly. The speed of the rollers varies by ``spread`` from one
+    scatterer to the next. Faster ones arrive more often, so that theirs is drawn with a probability
+    in proportion to speed.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def synthesise(
     factors = _waver(count, spread, rng)
     amplitudes = np.sqrt(2.0 * snr) * rng.uniform(0.5, 1.5, count)
     phases = rng.uniform(0.0, 2.0 * np.pi, count)
-    # last: a record longer by one sample is otherwise the same
+    # drawn last, so that a record that is longer by one sample is otherwise the same
     samples = rng.standard_normal(int(length * instrument.sample_rate) + 1)
     distance, time = _path(instrument, profile, x)
     for arrival, factor, amplitude, phase in zip(
@@ -86,7 +87,7 @@ def synthesise(
 
 
 def _path(instrument: Instrument, profile: SpeedProfile, x: float) -> tuple[Array, Array]:
-    """Distance from the centre, along the motion [mm], and time [s] at which it is reached."""
+    """Return distances from the centre along the motion [mm], and the times [s] to reach them."""
     reach = REACH * instrument.envelope_width
     distance = np.linspace(-reach, reach, _PATH)
     slowness = 1.0 / profile.at(x - distance)
@@ -96,7 +97,7 @@ def _path(instrument: Instrument, profile: SpeedProfile, x: float) -> tuple[Arra
 
 
 def _waver(count: int, spread: float, rng: np.random.Generator) -> Array:
-    """Speeds over their mean in time, as arriving scatterers show them."""
+    """Return speeds over their mean in time, distributed as those of arriving scatterers."""
     if spread == 0.0 or count == 0:
         return np.ones(count)
     moments = np.maximum(1.0 + spread * rng.standard_normal(20 * count + 200), 0.05)

@@ -1,4 +1,4 @@
-"""A measured velocity against a computed one: aligned by least squares, then compared."""
+"""Comparison of a measured velocity with a computed one, after alignment by least squares."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
-_STARTS = 81  # shifts tried before the best is refined
+_STARTS = 81  # number of shifts tried before the best is refined
 _SHIFT = 0.5  # largest shift, in nip widths
-_LEAST_ROOM = 0.02  # shift that must be possible either way, in nip widths
+_LEAST_ROOM = 0.02  # smallest shift that must be possible either way, in nip widths
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,25 +42,25 @@ class FittedNumber:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """A measured velocity v_i beside V (1 + eps(x_i - shift)), eps averaged over the volume.
+    """A measured velocity v_i compared with V (1 + eps(x_i - shift)), eps averaged over the volume.
 
     Attributes
     ----------
-    x : (m,) measured positions less the shift: in the solution's frame [mm].
+    x : (m,) measured positions minus the shift, in the frame of the solution [mm].
     strain : (m,) v_i/V - 1 with the fitted V.
-    strain_error : (m,) its standard error, that of V left out (it moves all points together).
+    strain_error : (m,) its standard error, without that of V (which moves all points together).
     computed : (m,) averaged strain of the solution there.
-    curve : the solution's strain over x, averaged over the volume.
+    curve : strain of the solution over x, averaged over the volume.
     shift : amount by which measured positions are too large [mm].
     speed : circumferential speed of the roller [mm/s].
-    rms : root mean square of measured less computed strain.
+    rms : root mean square of measured minus computed strain.
     noise : root mean square that the standard errors alone explain.
     chi_square : sum of squared deviations over variances.
-    degrees : points less 2.
-    probability : probability of a chi-square this large or larger where the model is right.
+    degrees : points minus 2.
+    probability : probability of a chi-square this large or larger if the model is right.
     confidence : confidence level of the intervals.
     contact : trailing and leading edge of the solution [mm].
-    left_out : positions where the velocity changes too much across the volume, not used.
+    left_out : number of positions left out because the velocity changes too much across the volume.
     """
 
     x: Array
@@ -91,10 +91,10 @@ def compare(
 ) -> Comparison:
     """Align a measured velocity profile with a computed one and compare them.
 
-    The solution is averaged over the measuring volume (the measurement is not sharpened, which
-    would multiply its noise). Shift and speed minimise the sum of squares; their intervals come
-    from the curvature of that sum, widened by sqrt(chi-square/degrees) where that exceeds 1: an
-    interval cannot know more than the model that it rests on explains.
+    The solution is averaged over the measuring volume; the measurement is not deconvolved, which
+    would amplify its noise. Shift and speed minimise the sum of squares. Their intervals come from
+    the curvature of that sum, widened by sqrt(chi-square/degrees) where that exceeds 1, because an
+    interval cannot be better than the fit of the model that it is based on.
 
     Parameters
     ----------
@@ -102,14 +102,15 @@ def compare(
     side : the roller whose surface was measured.
     width : standard deviation of the averaging, ``instrument.averaging_width`` [mm].
     blur :
-        largest change of the computed strain by averaging, ``instrument.largest_blur``; positions
-        where it is more (about the end of a slip zone) are left out and counted.
+        largest change of the computed strain by averaging, ``instrument.largest_blur``. Positions
+        where it is larger (near the end of a slip zone) are left out and counted.
 
     Raises
     ------
     InvalidInputError
         where there are too few positions, they lie outside the solution, or the shift cannot be
-        told: the positions leave no room, or the best lies at the end of what was tried.
+        determined: the positions leave no room, or the best shift lies at the end of the range
+        tried.
     """
     require_not_negative("width", width)
     if not 0.5 <= confidence < 1.0:
@@ -140,7 +141,7 @@ def compare(
 
 
 def _speed(measured: VelocityProfile, strain: Array) -> float:
-    """V of least squares for a given shift: the model is linear in it."""
+    """Return the least-squares V for a given shift, in which the model is linear."""
     stretch, weight = 1.0 + strain, 1.0 / measured.variance
     return float(np.sum(weight * stretch * measured.velocity) / np.sum(weight * stretch**2))
 

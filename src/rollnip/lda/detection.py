@@ -1,4 +1,4 @@
-"""Bursts in a record: found by their power, kept where they are one clean tone."""
+"""Bursts in a record: found by their power, kept where they are a single clean tone."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from rollnip.lda.instrument import Instrument
 
 Array = NDArray[np.float64]
 
-_BAND = 0.5  # searched about the expected velocity, relative
-_SIDE = 0.75  # middle of either part from the burst's, in envelope times
+_BAND = 0.5  # half-width of the range searched around the expected velocity, relative
+_SIDE = 0.75  # distance of the middle of either part from that of the burst, in envelope times
 _PART = 0.5  # window of either part, in envelope times
 _SIGMAS = 4.0  # standard deviations by which the parts may differ through noise alone
-_FAIR = 0.005  # and by their place in a velocity that changes across the volume, relative
-_LEAST_SHARED = 5  # bursts whose median change is that of the velocity across the volume
+_FAIR = 0.005  # relative allowance for a velocity whose change across the volume varies
+_LEAST_SHARED = 5  # fewest bursts whose median change is taken as that across the volume
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Burst:
     time : time of its middle, from the first sample [s].
     frequency : [Hz].
     snr : power of the tone over power of the noise, at its peak.
-    scatter : standard deviation expected of the frequency from noise [Hz].
+    scatter : expected standard deviation of the frequency due to noise [Hz].
     """
 
     time: float
@@ -43,7 +43,7 @@ class Burst:
 
 @dataclass(frozen=True, slots=True)
 class _Candidate:
-    """A burst before it is validated: with the frequency of its second part less the first's."""
+    """A burst before validation, with the frequency of its second part minus that of its first."""
 
     time: float
     frequency: float
@@ -61,23 +61,23 @@ def detect_bursts(
     threshold: float = 4.0,
     least_snr: float = 3.0,
 ) -> list[Burst]:
-    """Find bursts and keep those that are one clean tone.
+    """Return the bursts of a record that are a single clean tone.
 
-    The power in the band about the expected frequency, smoothed over a burst's length, must peak
-    above ``threshold`` times the noise. A burst is kept where its SNR is at least ``least_snr``
-    and the frequencies of its first and second part differ as they do in the record's other
-    bursts: where two scatterers are in the volume at once they do not.
+    The power in the band around the expected frequency, smoothed over the length of a burst, must
+    peak above ``threshold`` times the noise. A burst is kept where its SNR is at least
+    ``least_snr``, and where the frequencies of its first and second part differ as they do in the
+    other bursts of the record. With two scatterers in the volume at once they do not.
 
     Parameters
     ----------
     samples : (n,) of the detector.
-    speed : expected velocity, right to half of it [mm/s].
+    speed : expected velocity, within a factor of 0.5 to 1.5 [mm/s].
 
     Raises
     ------
     InvalidInputError
-        where the velocity cannot be measured with this instrument, or the record is shorter than
-        a burst.
+        where the velocity cannot be measured with this instrument, or the record is shorter than a
+        burst.
     """
     instrument.check_velocities(speed, speed)
     envelope = instrument.envelope_time(speed)
@@ -89,7 +89,7 @@ def detect_bursts(
         )
     band = _band(instrument, speed)
     power, noise = _power(samples, instrument.sample_rate, band)
-    # the envelope's square is narrower by sqrt(2)
+    # the square of the envelope is narrower by sqrt(2)
     smooth = scipy.ndimage.gaussian_filter1d(power, width / sqrt(2.0), mode="constant")
     floor = 4.0 * (band[1] - band[0]) / instrument.sample_rate * noise
     peaks, _ = scipy.signal.find_peaks(
@@ -97,7 +97,7 @@ def detect_bursts(
     )
     tried = [_tried(samples, instrument, int(p), speed, band, noise) for p in peaks]
     whole = [attempt for attempt in tried if attempt is not None and attempt.snr >= least_snr]
-    # the median difference of all bursts is the velocity's change across the volume
+    # the median difference of all bursts is the change of velocity across the volume
     change = float(np.median([a.change for a in whole])) if len(whole) >= _LEAST_SHARED else 0.0
     fair = _FAIR * abs(speed) / instrument.fringe_spacing
     return [
@@ -108,7 +108,7 @@ def detect_bursts(
 
 
 def _band(instrument: Instrument, speed: float) -> tuple[float, float]:
-    """Frequencies where the burst is looked for, inside what the samples can carry [Hz]."""
+    """Return the band in which bursts are searched, limited to what the samples can carry [Hz]."""
     middle = float(instrument.frequency(speed))
     half = _BAND * abs(speed) / instrument.fringe_spacing + 3.0 * instrument.broadening(speed)
     edge = 1.0 / (8.0 * instrument.envelope_time(speed))  # the spectrum's own resolution
@@ -116,10 +116,10 @@ def _band(instrument: Instrument, speed: float) -> tuple[float, float]:
 
 
 def _power(samples: Array, rate: float, band: tuple[float, float]) -> tuple[Array, float]:
-    """Power in the band over time, and the noise's variance per sample.
+    """Return the power in the band over time, and the variance of the noise per sample.
 
-    Noise in a band B has an analytic power 4 B s^2/rate in the mean, exponentially distributed:
-    its median, that few bursts do not move, is log(2) times that.
+    Noise in a band B has an analytic power of mean 4 B s^2/rate, exponentially distributed. Its
+    median, which few bursts hardly change, is log(2) times the mean.
     """
     spectrum = np.fft.fft(samples)
     lines = np.fft.fftfreq(samples.size, 1.0 / rate)
@@ -137,7 +137,7 @@ def _tried(
     band: tuple[float, float],
     noise: float,
 ) -> _Candidate | None:
-    """The burst about a peak of power, or None where the record cuts it off."""
+    """Return the burst around a peak of power, or None where the record cuts it off."""
     rate = instrument.sample_rate
     centre = peak / rate
     first = instrument.envelope_time(speed)
@@ -150,7 +150,7 @@ def _tried(
         )
 
     rough = float(instrument.velocity(tone(first, first, 0.0).frequency))
-    # matched to the velocity found, as far as that is in reason
+    # matched to the velocity found, within the range searched
     envelope = first / min(max(rough / speed, 1.0 - _BAND), 1.0 + _BAND)
     whole = tone(envelope, envelope, 0.0)
     snr = 0.5 * whole.amplitude**2 / noise

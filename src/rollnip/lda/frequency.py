@@ -1,15 +1,17 @@
 """The frequency of one burst: estimator, its scatter, and the Cramer-Rao bound.
 
-A burst is A g(t) cos(2 pi f t + phase) + white noise of variance s^2 per sample, g a Gaussian of
-standard deviation T. Fisher's information on f, time counted from the middle of the envelope so
-that the phase decouples, is (2 pi A/s)^2/2 sum t^2 g^2 = pi^(5/2) A^2 rate T^3/s^2. With
-SNR = A^2/(2 s^2) at the envelope's peak no unbiased estimate of a real tone has less variance than
+A burst is A g(t) cos(2 pi f t + phase) plus white noise of variance s^2 per sample, g a Gaussian of
+standard deviation T. The Fisher information on f, with time measured from the middle of the
+envelope so that the phase decouples, is (2 pi A/s)^2/2 sum t^2 g^2 = pi^(5/2) A^2 rate T^3/s^2.
+With SNR = A^2/(2 s^2) at the peak of the envelope no unbiased estimate for a real tone has less
+variance than
 
     1/(2 pi^(5/2) SNR rate T^3),
 
-and of a complex one, SNR = A^2/s^2 with s^2 the whole noise power, half of that. Amplitude,
-middle and width of the envelope act on the signal in quadrature with f: not knowing them costs
-nothing. The maximum of the spectrum under the matched window g is the maximum-likelihood estimate.
+and for a complex one, with SNR = A^2/s^2 and s^2 the whole noise power, half of that. Amplitude,
+middle and width of the envelope affect the signal in quadrature with f, so that not knowing them
+costs nothing. The maximum of the spectrum under the matched window g is the maximum-likelihood
+estimate.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from rollnip._errors import InvalidInputError, require_positive
 
 Array = NDArray[np.float64]
 
-_REACH = 4.0  # the window is cut where it is exp(-8), the product of it and the burst exp(-16)
+_REACH = 4.0  # the window is cut where it is exp(-8), and its product with the burst exp(-16)
 _PADDING = 4
 
 
@@ -36,7 +38,7 @@ class Tone:
     Attributes
     ----------
     frequency : [Hz].
-    amplitude : A at the envelope's peak, in the unit of the samples.
+    amplitude : A at the peak of the envelope, in the unit of the samples.
     """
 
     frequency: float
@@ -53,10 +55,10 @@ def estimate_tone(
     offset: float = 0.0,
     band: tuple[float, float] | None = None,
 ) -> Tone:
-    """Frequency of a Gaussian burst: windowed, zero-padded FFT, Gaussian interpolation.
+    """Return the tone of a Gaussian burst: windowed, zero-padded FFT with Gaussian interpolation.
 
-    The product of a Gaussian burst and a Gaussian window has a Gaussian spectrum, so a parabola
-    through the logarithms of the three highest lines is exact.
+    The product of a Gaussian burst and a Gaussian window has a Gaussian spectrum, so that a
+    parabola through the logarithms of the three highest lines is exact.
 
     Parameters
     ----------
@@ -64,14 +66,14 @@ def estimate_tone(
     rate : samples per second [Hz].
     centre : middle of the burst, from the first sample [s].
     envelope : standard deviation of its envelope [s].
-    window : standard deviation of the window [s]; None: matched, as the envelope.
-    offset : middle of the window less middle of the burst [s].
+    window : standard deviation of the window [s]; None: matched to the envelope.
+    offset : middle of the window minus middle of the burst [s].
     band : frequencies to search [Hz]; None: all.
 
     Raises
     ------
     InvalidInputError
-        where the band holds no line or too few samples lie under the window.
+        where the band contains no line, or too few samples lie under the window.
     """
     window = envelope if window is None else window
     cut, time = _cut(samples, rate, centre + offset, window)
@@ -89,11 +91,11 @@ def estimate_tone(
 
 
 def frequency_bound(snr: float, rate: float, envelope: float, *, is_complex: bool = False) -> float:
-    """Cramer-Rao bound of the frequency's standard deviation [Hz].
+    """Return the Cramer-Rao bound of the standard deviation of the frequency [Hz].
 
     Parameters
     ----------
-    snr : power of the tone over power of the noise at the envelope's peak.
+    snr : power of the tone over power of the noise at the peak of the envelope.
     rate : samples per second [Hz].
     envelope : standard deviation of the envelope [s].
     is_complex : whether tone and noise are complex.
@@ -103,7 +105,7 @@ def frequency_bound(snr: float, rate: float, envelope: float, *, is_complex: boo
 
 
 def window_penalty(ratio: float) -> float:
-    """Scatter of the frequency under a window of another width, over the bound.
+    """Return the scatter of the frequency under an unmatched window, over the bound.
 
     ((r + 1/r)/2)^(3/2), r window width over envelope width: 1 where matched.
     """
@@ -114,9 +116,9 @@ def window_penalty(ratio: float) -> float:
 def frequency_scatter(
     snr: float, rate: float, envelope: float, *, window: float, offset: float = 0.0
 ) -> float:
-    """Standard deviation [Hz] of `estimate_tone` on a real burst, to first order in the noise.
+    """Return the standard deviation [Hz] of `estimate_tone` on a real burst, to first order.
 
-    The estimate moves by the noise in quadrature, weighted with w (t - t_m), over the second
+    The estimate is moved by the noise in quadrature, weighted with w (t - t_m), over the second
     moment of w g about its own middle t_m.
     """
     both = envelope**2 + window**2
@@ -130,7 +132,7 @@ def frequency_scatter(
 def _cut(
     samples: NDArray[Any], rate: float, middle: float, window: float
 ) -> tuple[NDArray[Any], Array]:
-    """Samples under the window, and their times from its middle."""
+    """Return the samples under the window, and their times from its middle."""
     first = max(0, ceil((middle - _REACH * window) * rate))
     last = min(samples.size, int((middle + _REACH * window) * rate) + 1)
     if last - first < 4:
@@ -153,7 +155,7 @@ def _highest(spectrum: Array, lines: Array, band: tuple[float, float] | None) ->
 
 
 def _gaussian_peak(three: Array) -> tuple[float, float]:
-    """Place, from the middle line, and height of the Gaussian through three lines."""
+    """Return place, from the middle line, and height of the Gaussian through three lines."""
     left, middle, right = np.log(np.maximum(three, 1e-300))
     bend = left - 2.0 * middle + right
     shift = 0.0 if bend >= 0.0 else float(np.clip(0.5 * (left - right) / bend, -1.0, 1.0))

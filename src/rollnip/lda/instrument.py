@@ -13,7 +13,7 @@ from rollnip._errors import InvalidInputError, require_finite, require_positive
 Array = NDArray[np.float64]
 
 _FIRST_ORDER = 0.1  # radians
-_LEAST_CYCLES = 1.0  # within one envelope width: below, positive and negative frequency meet
+_LEAST_CYCLES = 1.0  # per envelope width; with fewer, positive and negative frequencies overlap
 
 
 def fringe_spacing(wavelength: float, beam_angle: float) -> float:
@@ -33,9 +33,9 @@ def fringe_spacing(wavelength: float, beam_angle: float) -> float:
 class Instrument:
     """Laser-Doppler velocimeter in the dual-beam arrangement.
 
-    A scatterer at the distance s from the centre of the volume gives the signal
-    A exp(-s^2/(2 w^2)) cos(2 pi (s/d_f + f_shift t) + phase): it crosses fringes d_f apart whose
-    contrast is Gaussian, w = half_width/2. Durst, Melling & Whitelaw (1981).
+    A scatterer at the distance s from the centre of the volume gives the signal A exp(-s^2/(2 w^2))
+    cos(2 pi (s/d_f + f_shift t) + phase): it crosses fringes d_f apart, whose contrast is Gaussian
+    with w = half_width/2. Durst, Melling & Whitelaw (1981).
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Instrument:
     beam_angle : full angle between the beams [rad], in (0, pi].
     half_width : half-width of the volume along x, where the light has fallen to 1/e^2 [mm].
     sample_rate : sample rate of the detector [Hz].
-    shift : frequency added to one beam [Hz]; tells the direction. 0: none.
+    shift : frequency added to one beam [Hz], which determines the direction; 0: none.
 
     Raises
     ------
@@ -74,7 +74,7 @@ class Instrument:
 
     @property
     def fringes(self) -> float:
-        """Fringes between the 1/e^2 points."""
+        """Number of fringes between the 1/e^2 points."""
         return 2.0 * self.half_width / self.fringe_spacing
 
     @property
@@ -84,47 +84,48 @@ class Instrument:
 
     @property
     def averaging_width(self) -> float:
-        """Standard deviation of the weight that a measured velocity is averaged with [mm].
+        """Standard deviation of the weight with which a measured velocity is averaged [mm].
 
-        The peak of the spectrum of envelope times window is, to first order in the change of
-        velocity, the mean of v weighted with that product; under the matched window it is
-        exp(-s^2/w^2): w/sqrt(2). A curved profile is biased by v'' w^2/4. First order means that
-        the change turns the phase by less than a cycle's part: v'' w^3 << d_f v.
+        To first order in the change of velocity, the peak of the spectrum of envelope times window
+        is the mean of v weighted with that product; under the matched window the weight is
+        exp(-s^2/w^2), with the standard deviation w/sqrt(2). A curved profile is biased by v''
+        w^2/4. First order means that the change turns the phase by a small part of a cycle: v'' w^3
+        << d_f v.
         """
         return self.envelope_width / sqrt(2.0)
 
     @property
     def largest_blur(self) -> float:
-        """Largest relative change of a velocity by averaging that the first order describes.
+        """Largest relative change of a velocity by averaging for which the first order holds.
 
-        A tenth of d_f/(2 pi w), at which the velocity's curvature would turn the phase by about a
-        radian within the burst. Found by simulation: beyond it chi-square is no longer the
-        noise's.
+        It is a tenth of d_f/(2 pi w), at which the curvature of the velocity would turn the phase
+        by about a radian within the burst. Simulations show that beyond it chi-square is no longer
+        that of the noise.
         """
         return _FIRST_ORDER * self.fringe_spacing / (2.0 * pi * self.envelope_width)
 
     def frequency(self, velocity: float | Array) -> float | Array:
-        """Frequency of the signal, shift + v/d_f [Hz]; velocity in the sense of the fringes."""
+        """Return the frequency of the signal, shift + v/d_f [Hz]; v along the fringes' normal."""
         return self.shift + velocity / self.fringe_spacing
 
     def velocity(self, frequency: float | Array) -> float | Array:
-        """Velocity (f - shift) d_f [mm/s]."""
+        """Return the velocity (f - shift) d_f [mm/s]."""
         return (frequency - self.shift) * self.fringe_spacing
 
     def envelope_time(self, velocity: float) -> float:
-        """Standard deviation w/|v| of the burst's envelope in time [s]."""
+        """Return the standard deviation w/|v| of the burst's envelope in time [s]."""
         return self.envelope_width / abs(velocity)
 
     def broadening(self, velocity: float) -> float:
-        """Transit-time broadening: standard deviation of a burst's power spectrum [Hz].
+        """Return the transit-time broadening: standard deviation of a burst's power spectrum [Hz].
 
-        |v|/(2 sqrt(2) pi w), from the transform of the Gaussian envelope. It widens each burst's
-        spectrum, and does not move it.
+        |v|/(2 sqrt(2) pi w), from the transform of the Gaussian envelope. It widens the spectrum of
+        each burst but does not shift it.
         """
         return abs(velocity) / (2.0 * sqrt(2.0) * pi * self.envelope_width)
 
     def check_velocities(self, lowest: float, highest: float) -> None:
-        """Raise InvalidInputError where a velocity of that range cannot be measured.
+        """Raise InvalidInputError where a velocity in a range cannot be measured.
 
         Above the Nyquist frequency it is aliased; below zero, or with less than a cycle per
         envelope width, its sign is lost.

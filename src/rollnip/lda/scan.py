@@ -1,4 +1,4 @@
-"""A simulated measurement: the volume is stepped along a roller's surface."""
+"""A simulated measurement, in which the volume is stepped along the surface of a roller."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
-_MOST = 2000  # positions
-_LONGEST = 20_000_000  # samples in a record
-_SHOWN = 0.8  # scanned on either side of the contact, in nip widths
+_MOST = 2000  # largest number of positions
+_LONGEST = 20_000_000  # largest number of samples in a record
+_SHOWN = 0.8  # length scanned on either side of the contact, in nip widths
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,12 +71,12 @@ class Scan:
 
     @property
     def velocity(self) -> Array:
-        """(n,) in the sense of motion [mm/s]."""
+        """Velocities in the direction of motion, (n,) [mm/s]."""
         return np.asarray(self.instrument.velocity(self.frequency))
 
 
 def surface_speed(solution: Solution, side: Side = "upper") -> tuple[SpeedProfile, float]:
-    """Speed of a roller's surface in the sense of motion, and the roller's own V [mm/s].
+    """Return the speed of a roller's surface in the direction of motion, and the roller's V [mm/s].
 
     Raises InvalidInputError where the nip has no speed or no creepage.
     """
@@ -104,7 +104,8 @@ def simulate_scan(
     Parameters
     ----------
     positions :
-        (m,) places [mm], or how many, evenly, to 0.8 nip widths outside the contact.
+        (m,) places [mm], or their number; they are then evenly spaced up to 0.8 nip widths outside
+        the contact.
     seed : seed of the random numbers; the same seed gives the same bursts.
 
     Raises
@@ -122,7 +123,7 @@ def simulate_scan(
         positions = _evenly(solution, profile, instrument, positions)
     profile.check_inside(positions, instrument.envelope_width)
     _check_length(instrument, seeding, float(np.min(profile.speed)))
-    # a stream for each place: what changes at one does not change the others
+    # one random stream for each place, so that a change at one does not affect the others
     streams = np.random.default_rng(seed).spawn(positions.size)
     records = [
         synthesise(

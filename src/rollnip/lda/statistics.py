@@ -13,9 +13,9 @@ from rollnip._errors import InvalidInputError, require_positive
 Array = NDArray[np.float64]
 
 _SAME_PLACE = 1e-6  # mm
-_OUTLIER = 4.5  # robust standard deviations; of normal values 7 in a million lie beyond
-_MAD = 1.482602218505602  # standard deviation over median absolute deviation, normal values
-LEAST = 5  # bursts at a position: the variance of its mean is finite with 4 or more
+_OUTLIER = 4.5  # robust standard deviations; 7 in a million normal values lie beyond
+_MAD = 1.482602218505602  # standard deviation over median absolute deviation of normal values
+LEAST = 5  # bursts at a position; the variance of their mean is finite from 4 on
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,12 +25,12 @@ class VelocityProfile:
     Attributes
     ----------
     x : (m,) increasing [mm].
-    velocity : (m,) in the sense of motion [mm/s], corrected for the velocity bias.
-    error : (m,) standard error of it [mm/s].
-    count : (m,) bursts kept; 0 where the error was given.
-    rejected : (m,) outliers left out.
+    velocity : (m,) in the direction of motion [mm/s], corrected for the velocity bias.
+    error : (m,) its standard error [mm/s].
+    count : (m,) number of bursts kept; 0 where the error was given.
+    rejected : (m,) number of outliers left out.
     confidence : confidence level of the bands, in (0, 1).
-    speed : circumferential speed of the roller [mm/s]; None where not known.
+    speed : circumferential speed of the roller [mm/s]; None where it is not known.
     """
 
     x: Array
@@ -43,17 +43,17 @@ class VelocityProfile:
 
     @property
     def strain(self) -> Array | None:
-        """v/V - 1, (m,); None without the roller's speed. Holds in steady rolling only."""
+        """v/V - 1, (m,); None without the roller's speed. It holds in steady rolling only."""
         return None if self.speed is None else self.velocity / self.speed - 1.0
 
     @property
     def band(self) -> Array:
-        """Half-width of the confidence interval at each position by itself, (m,) [mm/s]."""
+        """Half-width of the confidence interval at each single position, (m,) [mm/s]."""
         return self.error * self._quantile(self.confidence)
 
     @property
     def joint_band(self) -> Array:
-        """Half-width of the band that holds at all positions together, (m,) [mm/s].
+        """Half-width of the band that holds at all positions jointly, (m,) [mm/s].
 
         Sidak: each interval has the confidence to the power 1/m; positions are independent.
         """
@@ -61,7 +61,7 @@ class VelocityProfile:
 
     @property
     def variance(self) -> Array:
-        """Variance of what `error` estimates, over the distribution of t, (m,) [mm2/s2].
+        """Variance of the estimated mean by the distribution of t, (m,) [mm2/s2].
 
         n bursts give error^2 (n - 1)/(n - 3).
         """
@@ -90,21 +90,23 @@ def estimate_profile(
     confidence: float = 0.95,
     least: int = LEAST,
 ) -> VelocityProfile:
-    """Velocity at each position from single bursts.
+    """Return the velocity at each position from single bursts.
 
-    Outliers, more than 4.5 robust standard deviations (of their position, or of most positions
-    where that is larger) from the median of their position, are left out. The mean is weighted
-    with the time each scatterer stays in the volume: fast ones arrive more often, in proportion
-    to their speed, and the plain mean would be too high by the variance over the mean.
+    Outliers are left out: values more than 4.5 robust standard deviations (of their position, or of
+    most positions where that is larger) from the median of their position. The mean is weighted
+    with the time that each scatterer stays in the volume. Fast ones arrive more often, in
+    proportion to their speed, so that the plain mean would be too high by the variance over the
+    mean.
 
     Parameters
     ----------
     x : (n,) position of each burst [mm].
     velocity : (n,) [mm/s].
-    weight : (n,) stay [s]; None: 1/velocity, as every scatterer crosses the whole volume.
+    weight : (n,) stay in the volume [s]; None: 1/velocity, as every scatterer crosses the whole
+        volume.
     speed : circumferential speed of the roller [mm/s].
     confidence : confidence level of the bands.
-    least : bursts needed at each position, 5 or more.
+    least : smallest number of bursts at each position, 5 or more.
 
     Raises
     ------
@@ -151,10 +153,10 @@ def profile_from_means(
     speed: float | None = None,
     confidence: float = 0.95,
 ) -> VelocityProfile:
-    """Velocities whose standard errors [mm/s] are known, as they are.
+    """Return the profile of velocities whose standard errors [mm/s] are known.
 
-    Raises InvalidInputError where a value is not finite, an error not positive, or a position
-    comes twice.
+    Raises InvalidInputError where a value is not finite, an error is not positive, or a position
+    occurs twice.
     """
     _check(x, velocity, confidence)
     if speed is not None:
@@ -179,14 +181,14 @@ def _check(x: Array, velocity: Array, confidence: float) -> None:
 
 
 def _scale(velocity: Array) -> float:
-    """Robust standard deviation."""
+    """Return the robust standard deviation."""
     return _MAD * float(np.median(np.abs(velocity - np.median(velocity))))
 
 
 def _kept(velocity: Array, common: float) -> NDArray[np.bool_]:
-    """Return whether each value is kept; all are, where half are equal at most positions.
+    """Return which values are kept; all are where half of them are equal at most positions.
 
-    The scale of few values may come out far too small: it is that of most positions at least.
+    The scale of few values may come out far too small; that of most positions is its lower bound.
     """
     scale = max(_scale(velocity), common)
     away = np.abs(velocity - np.median(velocity))
@@ -194,7 +196,7 @@ def _kept(velocity: Array, common: float) -> NDArray[np.bool_]:
 
 
 def _mean(velocity: Array, weight: Array) -> tuple[float, float]:
-    """Weighted mean and its standard error."""
+    """Return the weighted mean and its standard error."""
     total = float(np.sum(weight))
     mean = float(weight @ velocity) / total
     n = velocity.size

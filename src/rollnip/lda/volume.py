@@ -12,17 +12,17 @@ from rollnip._errors import InvalidInputError
 
 Array = NDArray[np.float64]
 
-REACH = 5.0  # standard deviations; beyond it 6e-7 of the weight
+REACH = 5.0  # standard deviations, beyond which lie 6e-7 of the weight
 
 
 @dataclass(frozen=True, slots=True)
 class SpeedProfile:
-    """Surface speed over x, linear between points; a strain may stand in its place.
+    """Surface speed over x, linear between points; it may hold a strain instead.
 
     Attributes
     ----------
     x : (n,) increasing [mm], towards the leading edge.
-    speed : (n,) in the sense of motion, -x [mm/s].
+    speed : (n,) in the direction of motion, -x [mm/s].
     """
 
     x: Array
@@ -35,15 +35,15 @@ class SpeedProfile:
             raise InvalidInputError("`x` must increase.")
 
     def at(self, x: Array) -> Array:
-        """Speed at ``x``."""
+        """Return the speed at ``x``."""
         return np.asarray(np.interp(x, self.x, self.speed))
 
     def averaged(self, x: Array, width: float) -> Array:
-        """Mean of the profile under a Gaussian about each of ``x``, exactly.
+        """Return the exact mean of the profile under a Gaussian around each of ``x``.
 
-        With kink k_j at x_j the profile is v_0 + slope_0 (x - x_0) + sum k_j max(x - x_j, 0), and
-        the mean of max(X, 0) over a Gaussian of mean m and deviation s is
-        m Phi(m/s) + s phi(m/s). Beyond its ends the profile goes on with its last slope.
+        With the kink k_j at x_j the profile is v_0 + slope_0 (x - x_0) + sum k_j max(x - x_j, 0).
+        The mean of max(X, 0) over a Gaussian of mean m and standard deviation s is m Phi(m/s) + s
+        phi(m/s). Beyond its ends the profile continues with its last slope.
 
         Parameters
         ----------
@@ -68,7 +68,7 @@ class SpeedProfile:
         return float(self.x[0] + REACH * width), float(self.x[-1] - REACH * width)
 
     def check_inside(self, x: Array, width: float) -> None:
-        """Raise InvalidInputError where a place, with the volume about it, is not inside."""
+        """Raise InvalidInputError where a place, with the volume around it, is not inside."""
         first, last = self.span(width)
         outside = x[(x < first) | (x > last)]
         if outside.size:

@@ -16,7 +16,7 @@ from rollnip._errors import (
 from rollnip.materials.energy import Energy
 from rollnip.materials.thermal import Thermal
 
-_SMALLEST_MODULUS = 1e-9  # MPa; beyond these two a unit was mistaken
+_SMALLEST_MODULUS = 1e-9  # MPa; outside these two limits a unit was mistaken
 _LARGEST_MODULUS = 1e12  # MPa
 _SHORTEST_TIME = 1e-30  # s
 _LONGEST_TIME = 1e30  # s
@@ -45,24 +45,24 @@ class Material(ABC):
 
     @abstractmethod
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus E*(s).
+        """Return the complex modulus E*(s).
 
         Parameters
         ----------
         s :
-            time factor [1/s] of fields that go as e^{s t}, any shape; s = i w_t for harmonic
+            time factor [1/s] of fields that vary as e^{s t}, any shape; s = i w_t for harmonic
             fields, s = -i w V for the wave number w in steady rolling with the speed V.
 
         Returns
         -------
-        complex array of the shape of ``s`` [MPa]. E*(conj s) = conj E*(s); finite for every s
-        with a real part >= 0, from 0 to infinity.
+        complex array of the shape of ``s`` [MPa]. E*(conj s) = conj E*(s); finite for every s with
+        a real part >= 0, from 0 to infinity.
         """
 
     @property
     @abstractmethod
     def is_elastic(self) -> bool:
-        """True where E* does not depend on s."""
+        """Whether E* is independent of s."""
 
     @property
     @abstractmethod

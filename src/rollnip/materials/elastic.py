@@ -37,10 +37,10 @@ class Elastic(Material):
     poisson :
         Poisson ratio, in (-1, 0.5].
     thermal :
-        thermal properties; they count only for a `HeatBalance`.
+        thermal properties; used only for a `HeatBalance`.
     energy :
-        strain energy, such as `Yeoh`; None: `NeoHookean`. It says how the material stiffens with
-        stretch, from the modulus on, and counts only in geometry "finite".
+        strain energy, such as `Yeoh`; None: `NeoHookean`. It describes how the material stiffens
+        with stretch, with ``modulus`` at rest, and is used only in geometry "finite".
 
     Raises
     ------
@@ -66,7 +66,7 @@ class Elastic(Material):
 
     @classmethod
     def from_shear_modulus(cls, shear_modulus: float, poisson: float) -> Elastic:
-        """Elastic material of the shear modulus G [MPa]: E = 2 G (1 + nu).
+        """Return the elastic material with the shear modulus G [MPa]: E = 2 G (1 + nu).
 
         Raises InvalidInputError where a parameter lies outside its range.
         """
@@ -76,15 +76,15 @@ class Elastic(Material):
 
     @classmethod
     def from_shore_a(cls, shore_a: float, poisson: float = 0.5) -> Elastic:
-        """Elastic material of a Shore A hardness, by Gent's formula.
+        """Return the elastic material of a Shore A hardness, by Gent's formula.
 
-        An estimate only: `rollnip.materials.shore_a_band` says how far it may be off (a factor
-        of 2). Raises InvalidInputError for a hardness outside 20 to 95.
+        It is only an estimate: `rollnip.materials.shore_a_band` says how far it may be off (a
+        factor of 2). Raises InvalidInputError for a hardness outside 20 to 95.
         """
         return cls(modulus=shore_a_modulus(shore_a), poisson=poisson)
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """E*(s) = E [MPa], complex array of the shape of ``s``."""
+        """Return E*(s) = E [MPa], a complex array of the shape of ``s``."""
         return np.full(np.shape(s), self.modulus, dtype=np.complex128)
 
     @property

@@ -1,12 +1,13 @@
-"""Strain energies of rubber: how it stiffens with stretch, and how it resists a change of volume.
+"""Strain energies of rubber: how it stiffens with stretch, and how it resists volume change.
 
 An energy is given in units of the shear modulus G of its material,
 
     psi/G = w(l1, l2, l3) - r ln J + U(J)/G,    J = l1 l2 l3,
 
-l the principal stretches and r the slope of w at rest, so that no stress is left there. Each w has
-the initial shear modulus 1: the constants of an energy say the shape of a curve alone, and the
-modulus and the Poisson ratio of the material say the rest. lambda is that of E and nu.
+where l are the principal stretches, and r is the slope of w at rest, so that the material at rest
+is free of stress. Each w has the initial shear modulus 1: the constants of an energy describe only
+the shape of a curve; modulus and Poisson ratio of the material describe the rest. lambda follows
+from E and nu.
 
     U = lambda/2 (ln J)^2   ("log")    or    lambda/2 (J - 1)^2   ("square")
 
@@ -28,12 +29,15 @@ from rollnip._errors import InvalidInputError, require_finite, require_positive
 Array = NDArray[np.float64]
 Volumetric = Literal["log", "square"]
 
-_LARGEST_EXPONENT = 100.0  # of a stretch; beyond it a wall and no rubber
-_NEAR = 1e-4  # t - 1 up to which a series is closer than the closed form
+_LARGEST_EXPONENT = 100.0  # of a stretch; above it the material would be like a rigid wall
+_NEAR = 1e-4  # t - 1 up to which a series is more accurate than the closed form
 
 
 class Slopes(NamedTuple):
-    """Derivatives of w by I = l1^2 + l2^2 and J, in the plane with l3 = 1; each as the input."""
+    """Derivatives of w with respect to I = l1^2 + l2^2 and J, in the plane with l3 = 1.
+
+    Each has the shape of the input.
+    """
 
     i: Array
     j: Array
@@ -49,9 +53,9 @@ class Energy(ABC):
     Parameters
     ----------
     volumetric :
-        law U of the change of volume of a compressible material, "log" or "square". They agree
-        for small changes: at a Poisson ratio of 0.3 a layer pressed in by a third is a fifth
-        stiffer with "log".
+        law U of the volume change of a compressible material, "log" or "square". They agree for
+        small changes; at a Poisson ratio of 0.3 a layer compressed by a third is a fifth stiffer
+        with "log".
     """
 
     volumetric: Volumetric = field(default="log", kw_only=True)
@@ -64,29 +68,29 @@ class Energy(ABC):
 
     @property
     def rest(self) -> float:
-        """Slope of w by each stretch at rest."""
+        """Slope of w with respect to each stretch at rest."""
         return 1.0
 
     @abstractmethod
     def slopes(self, volume: Array, spread: Array) -> Slopes:
-        """Return the derivatives of w in plane strain; not finite where there is no such stretch.
+        """Return the derivatives of w in plane strain; not finite where a stretch is impossible.
 
         Parameters
         ----------
         volume : J.
-        spread : (l1 - l2)^2 = I - 2 J, which a caller knows without rounding.
+        spread : (l1 - l2)^2 = I - 2 J, which the caller knows without rounding.
         """
 
     @abstractmethod
     def principal(self, stretches: Array) -> Array:
-        """Return dw/dl_i at principal stretches, both (3, ...); nan where there is no such one."""
+        """Return dw/dl_i at principal stretches, both (3, ...); nan where one is impossible."""
 
     @abstractmethod
     def value(self, volume: Array, spread: Array) -> Array:
-        """Return w in plane strain, of J and the spread of stretches as in `slopes`.
+        """Return w in plane strain, as a function of J and the spread of stretches as in `slopes`.
 
-        Exact also where it is as small as a square of rounding, so that it may be compared with
-        the energy of linear theory.
+        It is accurate even where it is as small as the square of a rounding error, so that it can
+        be compared with the energy of linear theory.
         """
 
     def volume_measure(self, volume: Array) -> tuple[Array, Array, Array]:
@@ -123,7 +127,7 @@ class _OfFirstInvariant(Energy):
         return np.asarray(0.5 * self._at(spread + 2.0 * (volume - 1.0)))
 
     def slopes(self, volume: Array, spread: Array) -> Slopes:
-        """Return the derivatives of w by I and J in plane strain."""
+        """Return the derivatives of w with respect to I and J in plane strain."""
         first, second = self._by_excess(spread + 2.0 * (volume - 1.0))
         none = np.zeros_like(first)
         return Slopes(0.5 * first, none, 0.5 * second, none, none)
@@ -136,12 +140,12 @@ class _OfFirstInvariant(Energy):
 
 @dataclass(frozen=True)
 class NeoHookean(_OfFirstInvariant):
-    """w = (I1 - 3)/2: the stress in simple shear is in proportion to the shear.
+    """w = (I1 - 3)/2: the stress in simple shear is proportional to the shear.
 
     Raises
     ------
     InvalidInputError
-        where the law of volume is unknown.
+        where the law of volume change is unknown.
     """
 
     def _by_excess(self, excess: Array) -> tuple[Array, Array]:
@@ -163,7 +167,7 @@ class Yeoh(_OfFirstInvariant):
     Raises
     ------
     InvalidInputError
-        where a parameter is not finite, or the law of volume is unknown.
+        where a parameter is not finite, or the law of volume change is unknown.
     """
 
     second: float
@@ -184,19 +188,19 @@ class Yeoh(_OfFirstInvariant):
 
 @dataclass(frozen=True)
 class Gent(_OfFirstInvariant):
-    """2 w = -m ln(1 - (I1 - 3)/m): chains are straight at I1 - 3 = m.
+    """2 w = -m ln(1 - (I1 - 3)/m): chains are fully extended at I1 - 3 = m.
 
     Gent 1996, Rubber Chem. Technol. 69, 59-61.
 
     Parameters
     ----------
     limit :
-        m, the largest I1 - 3; positive.
+        m, the limit of I1 - 3; positive.
 
     Raises
     ------
     InvalidInputError
-        where the limit is not positive and finite, or the law of volume is unknown.
+        where the limit is not positive and finite, or the law of volume change is unknown.
     """
 
     limit: float
@@ -218,19 +222,19 @@ class Gent(_OfFirstInvariant):
 class Ogden(Energy):
     """w = sum (m_n/a_n) (l1^a_n + l2^a_n + l3^a_n - 3), sum m_n a_n = 2.
 
-    Ogden 1972, Proc. R. Soc. Lond. A 326, 565-584. A term with a_n = 2 alone is neo-Hookean.
+    Ogden 1972, Proc. R. Soc. Lond. A 326, 565-584. A single term with a_n = 2 is neo-Hookean.
 
     Parameters
     ----------
     terms :
-        pairs (mu_n, a_n) of the usual constants and exponents. Only ratios of the mu_n count,
-        for G = sum mu_n a_n/2 is that of the material; this sum must be positive.
+        pairs (mu_n, a_n) of the usual constants and exponents. Only the ratios of the mu_n are
+        used, since G = sum mu_n a_n/2 is that of the material; this sum must be positive.
 
     Raises
     ------
     InvalidInputError
-        where there is no term, a number is not finite, an exponent is 0 or beyond 100, the sum of
-        mu_n a_n is not positive, or the law of volume is unknown.
+        where there is no term, a number is not finite, an exponent is 0 or beyond +-100, the sum of
+        mu_n a_n is not positive, or the law of volume change is unknown.
     """
 
     terms: tuple[tuple[float, float], ...]
@@ -254,7 +258,7 @@ class Ogden(Energy):
         return np.asarray(sum(m * stretches ** (a - 1.0) for m, a in self._scaled))
 
     def value(self, volume: Array, spread: Array) -> Array:
-        """Return w; with J^n T_n(t) - 1 = J^n (T_n(t) - 1) + (J^n - 1)."""
+        """Return w, with J^n T_n(t) - 1 written as J^n (T_n(t) - 1) + (J^n - 1)."""
         angle, swell = _angle(spread / (2.0 * volume)), np.log1p(volume - 1.0)
         out = np.zeros_like(angle)
         for m, a in self._scaled:
@@ -265,7 +269,7 @@ class Ogden(Energy):
     def slopes(self, volume: Array, spread: Array) -> Slopes:
         """Return the derivatives of w by I and J in plane strain, also at equal stretches.
 
-        With n = a/2 and t = I/(2 J) = cosh(ln(l1/l2)) a term is  l1^a + l2^a = 2 J^n T_n(t), T_n
+        With n = a/2 and t = I/(2 J) = cosh(ln(l1/l2)) a term is l1^a + l2^a = 2 J^n T_n(t). T_n is
         the Chebyshev function cosh(n arcosh t) of real order, which is smooth at t = 1.
         """
         excess = spread / (2.0 * volume)
@@ -310,7 +314,7 @@ def _checked_terms(terms: object) -> tuple[tuple[float, float], ...]:
 
 
 def _angle(excess: Array) -> Array:
-    """Return arcosh(1 + excess), exact where this is small."""
+    """Return arcosh(1 + excess), accurate where the excess is small."""
     return np.asarray(2.0 * np.arcsinh(np.sqrt(0.5 * excess)))
 
 

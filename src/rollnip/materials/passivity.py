@@ -1,4 +1,4 @@
-"""Passivity: a material that neither pushes against its strain nor gives energy away."""
+"""Passivity: a material that stores and dissipates energy, but never generates any."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ _ROUNDING = 1e-12
 
 
 def is_passive(material: Material, frequencies: ArrayLike | None = None) -> bool:
-    """Return whether a material is passive: it stores and dissipates energy, but never gives any.
+    """Return whether a material is passive: it may store and dissipate, never generate energy.
 
-    Storage modulus Re E*(i w) >= 0 and loss modulus sign(w) Im E*(i w) >= 0, to within rounding.
-    The materials of this package are passive by their parameters; this is the check for others.
+    Storage modulus Re E*(i w) >= 0 and loss modulus sign(w) Im E*(i w) >= 0, up to rounding. The
+    materials of this package are passive by their parameters; this is a check for others.
 
     Parameters
     ----------
     material :
         any Material.
     frequencies :
-        angular frequencies w [rad/s], any shape, finite. Default: 10 per decade over all
-        relaxation times and 6 decades beyond either end, of both signs, and 0.
+        angular frequencies w [rad/s], any shape, finite. Default: 10 per decade over all relaxation
+        times and 6 decades beyond either end, of both signs, and 0.
 
     Returns
     -------
-    True where passive at all of them.
+    True where the material is passive at all of them.
 
     Raises
     ------

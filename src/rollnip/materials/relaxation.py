@@ -1,4 +1,4 @@
-"""Stress under a constant strain, and the relaxed modulus that a durometer fixes through it."""
+"""Relaxation and creep functions, and the relaxed modulus that follows from a durometer reading."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rollnip.materials.viscoelastic import (
     StandardLinearSolid,
 )
 
-_PER_FOLD = 20.0  # points of an interpolated function, of e in time
+_PER_FOLD = 20.0  # points of an interpolated function in a factor e of time
 
 Solid = TypeVar("Solid", StandardLinearSolid, Prony, FractionalZener, LossFactor)
 
@@ -29,14 +29,14 @@ LABORATORY = 23.0  # degC, at which hardness is measured (ISO 23529)
 
 
 def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float64]:
-    """Relaxation modulus E(t) [MPa]: stress over strain, a time after a sudden constant strain.
+    """Return the relaxation modulus E(t) [MPa]: stress per strain, at t after a step of strain.
 
-    The inverse Laplace transform of E*(s)/s, by quadrature along Talbot's contour.
+    It is the inverse Laplace transform of E*(s)/s, by quadrature along Talbot's contour.
 
     Parameters
     ----------
     material :
-        any but a `LossFactor`, which has no answer in time.
+        any except a `LossFactor`, which has no response in time.
     time :
         t [s], any shape, positive.
 
@@ -53,10 +53,10 @@ def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float6
 
 
 def memory_integral(material: Material, time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the integral of E(t)/E(inf) - 1 from 0 to each time, [s].
+    """Return the integral of E(t)/E(inf) - 1 from 0 to each time [s].
 
-    It is 0 before t = 0. A constant loss factor eta is not causal: its answer to a step goes as
-    -(eta/pi) ln|t| on both sides, up to a constant, which no closed cycle sees.
+    It is 0 before t = 0. A constant loss factor eta is not causal: its response to a step varies as
+    -(eta/pi) ln|t| on both sides of t = 0, up to a constant that has no effect on a closed cycle.
     """
     if material.is_elastic:
         return np.zeros(time.shape)
@@ -86,7 +86,7 @@ def _excess_area(material: Material, time: NDArray[np.float64]) -> NDArray[np.fl
 def _interpolated(
     area: Callable[[NDArray[np.float64]], NDArray[np.float64]], time: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return a smooth, increasing function of time, evaluated on a grid even in its logarithm."""
+    """Return a smooth, increasing function of time, interpolated on an even grid of log time."""
     from scipy.interpolate import CubicSpline  # a plain nip does not need it
 
     positive = time[time > 0.0]
@@ -103,7 +103,7 @@ def _interpolated(
 
 
 def _inverse(material: Material, time: ArrayLike, power: int) -> NDArray[np.float64]:
-    """Inverse Laplace transform of E*(s)^power/s."""
+    """Return the inverse Laplace transform of E*(s)^power/s."""
     if isinstance(material, LossFactor):
         raise InvalidInputError(
             "`material` must have an answer in time: a constant loss factor is not causal."
@@ -115,26 +115,27 @@ def _inverse(material: Material, time: ArrayLike, power: int) -> NDArray[np.floa
 
 
 def creep_compliance(material: Material, time: ArrayLike) -> NDArray[np.float64]:
-    """Creep compliance J(t) [1/MPa]: strain over stress, a time after a sudden constant stress.
+    """Return the creep compliance J(t) [1/MPa]: strain per stress, at t after a step of stress.
 
-    The inverse Laplace transform of 1/(s E*(s)); parameters and errors as `relaxation_modulus`.
+    It is the inverse Laplace transform of 1/(s E*(s)); parameters and errors as for
+    `relaxation_modulus`.
     """
     return _inverse(material, time, -1)
 
 
 def with_shore_a(material: Solid, shore_a: float, *, reading_time: float = READING_TIME) -> Solid:
-    """Return the solid with the relaxed modulus that makes it as hard as a durometer says.
+    """Return the solid with the relaxed modulus that gives it a Shore A hardness.
 
-    A durometer is read some seconds after contact, at 23 degC: what it measures is the stress
-    that is left then. The relaxed modulus is set such that E(reading time) at 23 degC is the
-    modulus of the hardness (Gent's formula); what relaxes stays as it is. For rubber whose
-    relaxation times are much shorter than the reading that is the relaxed modulus itself. For a
-    `LossFactor` it is the storage modulus, for that knows no time.
+    A durometer is read some seconds after contact, at 23 degC; it measures the stress that is left
+    then. The relaxed modulus is chosen such that E(reading time) at 23 degC is the modulus of the
+    hardness (Gent's formula); the relaxing part stays as it is. For rubber whose relaxation times
+    are much shorter than the reading time, this is the relaxed modulus itself. For a `LossFactor`,
+    which has no time scale, it is the storage modulus.
 
     Parameters
     ----------
     material :
-        whose ``modulus`` is replaced.
+        the solid whose ``modulus`` is replaced.
     shore_a :
         hardness, from 20 to 95.
     reading_time :
@@ -143,7 +144,7 @@ def with_shore_a(material: Solid, shore_a: float, *, reading_time: float = READI
     Raises
     ------
     InvalidInputError
-        where the terms alone are stiffer than the hardness after that time.
+        where the relaxing part alone is still stiffer than the hardness at the reading time.
     """
     wanted = shore_a_modulus(shore_a)
     after = require_positive("reading_time", reading_time)
@@ -161,11 +162,11 @@ def with_shore_a(material: Solid, shore_a: float, *, reading_time: float = READI
 
 
 def stiffness_of_hardness(material: Material, shore_a: float) -> float:
-    """Return the factor on all moduli that makes a material as hard as a durometer says.
+    """Return the factor on all moduli that gives a material a Shore A hardness.
 
     The modulus that a durometer reads, `READING_TIME` after contact at 23 degC, becomes that of the
-    hardness (Gent's formula). So readings along a face tell how its stiffness varies; what
-    `with_shore_a` leaves as it is, the relaxing part, goes in proportion here.
+    hardness (Gent's formula). Readings along a face thus determine how its stiffness varies. The
+    relaxing part, which `with_shore_a` leaves as it is, is scaled in proportion here.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The same material, stiffer or softer: every modulus times one factor, every time as it is."""
+"""The same material, stiffer or softer: all moduli times one factor, all times unchanged."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ M = TypeVar("M", bound=Material)
 
 
 def with_stiffness(material: M, factor: float) -> M:
-    """Return the material with every modulus times ``factor``.
+    """Return the material with all moduli times ``factor``.
 
     Raises
     ------
     InvalidInputError
-        where the material is none of rollnip's own, or a modulus leaves its range.
+        where the material is not one of rollnip's own, or a modulus leaves its range.
     """
     if isinstance(material, Elastic | LossFactor):
         return replace(material, modulus=factor * material.modulus)

@@ -19,14 +19,14 @@ Vertical = Literal["none", "entropic"] | Points
 _ABSOLUTE_ZERO = -273.15  # degC
 _HOTTEST = 1e4  # degC, far above where any material is solid
 _GAS_CONSTANT = 8.31446261815324e-3  # kJ/(mol K), exact since 2019
-_LARGEST_EXPONENT = 100.0  # of ten; beyond it the law is used far outside its range
+_LARGEST_EXPONENT = 100.0  # of ten; above it the law is used far outside its range
 
 
 @dataclass(frozen=True, slots=True)
 class WLF:
     """Williams-Landel-Ferry shift: log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref).
 
-    Meant for temperatures between the glass transition and about 100 K above it.
+    Intended for temperatures between the glass transition and about 100 K above it.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class WLF:
     c2 :
         second constant [K], positive (51.6 with T_ref at the glass transition).
     reference :
-        T_ref [degC], the temperature the relaxation times were measured at.
+        T_ref [degC], the temperature at which the relaxation times were measured.
     vertical :
         the shift b_T of the moduli: "none"; "entropic", b_T = T/T_ref in kelvin; or a table of
         pairs (temperature [degC], b_T).
@@ -62,10 +62,10 @@ class WLF:
         object.__setattr__(self, "vertical", _checked_vertical(self.vertical, self.reference))
 
     def factor(self, temperature: float) -> float:
-        """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
+        """Return the shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
 
-        Raises InvalidInputError at or below the pole T_ref - c2 and where a_T leaves
-        1e-100 to 1e100.
+        Raises InvalidInputError at or below the pole T_ref - c2, and where a_T leaves 1e-100 to
+        1e100.
         """
         checked = checked_temperature("temperature", temperature)
         pole = self.reference - self.c2
@@ -78,7 +78,7 @@ class WLF:
         return _power_of_ten(-self.c1 * difference / (checked - pole), temperature)
 
     def level(self, temperature: float) -> float:
-        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        """Return b_T at ``temperature`` [degC], by which E(T) = b_T E(T_ref) at equal a_T s."""
         return _level(self.vertical, self.reference, temperature)
 
 
@@ -91,7 +91,7 @@ class Arrhenius:
     activation_energy :
         E_a [kJ/mol], positive.
     reference :
-        T_ref [degC], the temperature the relaxation times were measured at.
+        T_ref [degC], the temperature at which the relaxation times were measured.
     vertical :
         the shift b_T of the moduli, see `WLF`.
 
@@ -116,7 +116,7 @@ class Arrhenius:
         object.__setattr__(self, "vertical", _checked_vertical(self.vertical, self.reference))
 
     def factor(self, temperature: float) -> float:
-        """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
+        """Return the shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
 
         Raises InvalidInputError where a_T leaves 1e-100 to 1e100.
         """
@@ -127,23 +127,23 @@ class Arrhenius:
         return _power_of_ten(exponent / log(10.0), temperature)
 
     def level(self, temperature: float) -> float:
-        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        """Return b_T at ``temperature`` [degC], by which E(T) = b_T E(T_ref) at equal a_T s."""
         return _level(self.vertical, self.reference, temperature)
 
 
 @dataclass(frozen=True, slots=True)
 class TabulatedShift:
-    """Shift factors measured at some temperatures; ln a_T is linear in T between them.
+    """Shift factors measured at given temperatures; ln a_T is linear in T between them.
 
-    Only ratios count: a_T is divided by its value at the reference, so the table may be about any
-    temperature.
+    Only ratios are used: a_T is divided by its value at the reference, so that the table may refer
+    to any temperature.
 
     Parameters
     ----------
     points :
         pairs (temperature [degC], a_T), two or more; a_T positive and falling with temperature.
     reference :
-        T_ref [degC], the temperature the relaxation times were measured at; within the table.
+        T_ref [degC], the temperature at which the relaxation times were measured; within the table.
     vertical :
         the shift b_T of the moduli, see `WLF`.
 
@@ -171,9 +171,9 @@ class TabulatedShift:
         _interpolated("reference", points, self.reference)
 
     def factor(self, temperature: float) -> float:
-        """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
+        """Return the shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
 
-        Raises InvalidInputError outside of the table, and where a_T leaves 1e-100 to 1e100.
+        Raises InvalidInputError outside the table, and where a_T leaves 1e-100 to 1e100.
         """
         checked = checked_temperature("temperature", temperature)
         here = _interpolated("temperature", self.points, checked)
@@ -181,7 +181,7 @@ class TabulatedShift:
         return _power_of_ten((here - there) / log(10.0), temperature)
 
     def level(self, temperature: float) -> float:
-        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        """Return b_T at ``temperature`` [degC], by which E(T) = b_T E(T_ref) at equal a_T s."""
         return _level(self.vertical, self.reference, temperature)
 
 
@@ -199,7 +199,7 @@ def _level(vertical: Vertical, reference: float, temperature: float) -> float:
 
 
 def _interpolated(name: str, points: Points, temperature: float) -> float:
-    """Logarithm of the value at a temperature, linear between the points."""
+    """Return the logarithm of the value at a temperature, linear between the points."""
     if not points[0][0] <= temperature <= points[-1][0]:
         raise InvalidInputError(
             f"`{name}` must lie within the table of shifts, {points[0][0]:g} to "
@@ -225,7 +225,7 @@ def _checked_vertical(vertical: object, reference: float) -> Vertical:
 
 
 def _checked_points(name: str, points: object) -> Points:
-    """Pairs (temperature, positive value) in the order of rising temperature."""
+    """Return pairs (temperature, positive value), ordered by temperature."""
     try:
         pairs = [tuple(pair) for pair in cast("Iterable[Iterable[float]]", points)]
     except TypeError:
@@ -250,7 +250,7 @@ def _checked_points(name: str, points: object) -> Points:
 
 
 def checked_temperature(name: str, value: float) -> float:
-    """Return a temperature [degC]; raise InvalidInputError for one that nothing solid has."""
+    """Return a temperature [degC]; raise InvalidInputError where no solid can have it."""
     checked = require_finite(name, value)
     if checked <= _ABSOLUTE_ZERO:
         raise InvalidInputError(

@@ -1,8 +1,8 @@
 """Young's modulus from a Shore A hardness: an estimate, and how far it may be off.
 
-Relations in circulation differ by a factor of up to 2.7 at the same hardness; some of that is one
-relation copied with its power of ten turned into a power of e. Two that rest on sources are given
-here. Where the modulus matters, measure it, or fit it to a measured nip width.
+Relations in use differ by a factor of up to 2.7 at the same hardness; partly because one relation
+is copied with its power of ten turned into a power of e. Two that rest on sources are given here.
+Where the modulus matters, measure it, or fit it to a measured nip width.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ class ShoreBand(NamedTuple):
 
 
 def shore_a_modulus(shore_a: float) -> float:
-    """Young's modulus [MPa] of rubber from its Shore A hardness S, by Gent's formula.
+    """Return Young's modulus [MPa] of rubber from its Shore A hardness S, by Gent's formula.
 
-    E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)): the spring force 56 + 7.62336 S grams
-    on a flat punch of 0.516 mm radius (between tip and shank of the indenter), pressed
-    2.54 mm (1 - S/100) into an incompressible elastic half-space: force = (8/3) E radius depth.
-    Quasi-static modulus at small strain. A good factor of 2 is open up to 80, more above; see
-    `shore_a_band`.
+    E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)): the spring force of 56 + 7.62336 S grams
+    on a flat punch of 0.516 mm radius (between tip and shank of the indenter), pressed 2.54 mm (1 -
+    S/100) into an incompressible elastic half-space, with force = (8/3) E radius depth. It is the
+    quasi-static modulus at small strain. It may be off by a factor of 2 up to 80, and by more
+    above; see `shore_a_band`.
 
     Parameters
     ----------
     shore_a :
-        hardness S, from 20 to 95. Outside it the scale itself fails: below 20 the indenter is
-        nearly fully extended, above 95 it is nearly flush and one point of reading changes the
+        hardness S, from 20 to 95. Outside this range the scale itself fails: below 20 the indenter
+        is nearly fully extended, above 95 it is nearly flush, and one point of reading changes the
         result by a quarter or more (use Shore D there).
 
     Returns
@@ -58,11 +58,11 @@ def shore_a_modulus(shore_a: float) -> float:
 
 
 def shore_a_modulus_log_linear(shore_a: float) -> float:
-    """Young's modulus [MPa] from Shore A hardness S: log10 E = 0.0235 S - 0.6403.
+    """Return Young's modulus [MPa] from Shore A hardness S, log10 E = 0.0235 S - 0.6403.
 
-    A fit to tests, said to be best from 30 to 60. It lies above Gent's formula
-    (`shore_a_modulus`) by a factor of 1.6 at 60 and 1.9 at 80. Beware of copies with exp instead
-    of the power of ten. Hardness from 20 to 95, else InvalidInputError.
+    A fit to tests, said to be best from 30 to 60. It lies above Gent's formula (`shore_a_modulus`)
+    by a factor of 1.6 at 60 and 1.9 at 80. Beware of copies with exp instead of the power of ten.
+    Hardness from 20 to 95, else InvalidInputError.
 
     References
     ----------
@@ -72,19 +72,19 @@ def shore_a_modulus_log_linear(shore_a: float) -> float:
 
 
 def shore_a_band(shore_a: float, *, reading: float = 4.0) -> ShoreBand:
-    """Range in which Young's modulus of a rubber of Shore A hardness S is to be expected.
+    """Return the range in which Young's modulus of a rubber of Shore A hardness S may lie.
 
-    The lowest and the highest of the two relations (`shore_a_modulus`,
-    `shore_a_modulus_log_linear`) at S - reading and S + reading (at most 99); the likely value
-    is Gent's.
+    Its ends are the lowest and the highest of the two relations (`shore_a_modulus`,
+    `shore_a_modulus_log_linear`) at S - reading and S + reading (at most 99); the likely value is
+    Gent's.
 
     Parameters
     ----------
     shore_a :
         hardness S, from 20 to 95.
     reading :
-        uncertainty of the reading, points, >= 0. Two durometers on one roller commonly differ by
-        4 points, and a curved or thin covering adds to it.
+        uncertainty of the reading, points, >= 0. Two durometers on one roller commonly differ by 4
+        points, and a curved or thin covering adds to it.
 
     Returns
     -------

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from rollnip._errors import InvalidInputError, require_finite, require_positive
 
-_LARGEST_EXPANSION = 1e-2  # 1/K; a thousandth is already more than any solid has
+_LARGEST_EXPANSION = 1e-2  # 1/K; already 1e-3 is more than any solid has
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,8 +25,8 @@ class Thermal:
     heat_capacity :
         per mass [J/(kg K)], positive.
     expansion :
-        linear coefficient of thermal expansion [1/K], between -0.01 and 0.01; 0: the size is that
-        of the cold roller.
+        linear coefficient of thermal expansion [1/K], between -0.01 and 0.01; with 0 the roller
+        keeps its cold size.
 
     Raises
     ------

@@ -23,8 +23,8 @@ from rollnip.materials.energy import Energy
 from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift, checked_temperature
 from rollnip.materials.thermal import Thermal
 
-_FAR = 1e150  # |tau s| beyond which a Maxwell element is glassy to the last bit
-_FAR_EXPONENT = 700.0  # exp of it is still finite
+_FAR = 1e150  # |tau s| above which a Maxwell element is glassy to the last bit
+_FAR_EXPONENT = 700.0  # exponent whose exp is still finite
 _HINTS = with_hints(
     shore_a="a hardness gives an elastic modulus alone: `rn.Elastic.from_shore_a(60)`.",
     tau="give `relaxation_time`.",
@@ -37,8 +37,8 @@ class Viscoelastic(Material):
     """Base class of the viscoelastic materials, with their Poisson ratio and temperature.
 
     Times and moduli are given at the reference temperature of ``shift``; at ``temperature`` times
-    are a_T times as long and moduli b_T times as high. Both or neither must be given. The Poisson
-    ratio does not relax.
+    are longer by the factor a_T and moduli higher by the factor b_T. Give either both or neither.
+    The Poisson ratio does not relax.
 
     Parameters
     ----------
@@ -49,10 +49,10 @@ class Viscoelastic(Material):
     shift :
         its time-temperature shift.
     thermal :
-        its thermal properties; they count only for a `HeatBalance`.
+        its thermal properties; used only for a `HeatBalance`.
     energy :
         strain energy of the relaxed material, such as `Yeoh`; None: `NeoHookean`. Its stress
-        relaxes as the modulus does. It counts only in geometry "finite".
+        relaxes as the modulus does. It is used only in geometry "finite".
     """
 
     poisson: float
@@ -68,14 +68,14 @@ class Viscoelastic(Material):
 
     @property
     def shift_factor(self) -> float:
-        """a_T, the effective relaxation times over those at the reference; 1 without shift."""
+        """a_T, the ratio of relaxation times to those at the reference; 1 without shift."""
         if self.shift is None or self.temperature is None:
             return 1.0
         return self.shift.factor(self.temperature)
 
     @property
     def level(self) -> float:
-        """b_T, the moduli over those at the reference; 1 without shift."""
+        """b_T, the ratio of moduli to those at the reference; 1 without shift."""
         if self.shift is None or self.temperature is None:
             return 1.0
         return self.shift.level(self.temperature)
@@ -83,7 +83,7 @@ class Viscoelastic(Material):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _ZenerSolid(Viscoelastic):
-    """A solid that relaxes from one modulus to another in one relaxation time."""
+    """A solid that relaxes from one modulus to another with one relaxation time."""
 
     modulus: float
     stiffening: float
@@ -118,15 +118,15 @@ class _ZenerSolid(Viscoelastic):
 class StandardLinearSolid(_ZenerSolid):
     """The standard linear solid: sigma + tau dsigma/dt = E0 eps + (E0 + k) tau deps/dt.
 
-    E*(s) = E0 + k tau s/(1 + tau s). Under constant strain stress relaxes with the time tau;
-    under constant stress strain creeps with the time tau (E0 + k)/E0.
+    E*(s) = E0 + k tau s/(1 + tau s). Under constant strain the stress relaxes with the time tau;
+    under constant stress the strain creeps with the time tau (E0 + k)/E0.
 
     Parameters
     ----------
     modulus :
         relaxed modulus E0 [MPa], from 1e-9 to 1e12.
     stiffening :
-        k [MPa], >= 0: glassy modulus less relaxed modulus.
+        k [MPa], >= 0: glassy modulus minus relaxed modulus.
     relaxation_time :
         tau [s], positive.
     poisson, temperature, shift, thermal, energy :
@@ -143,7 +143,7 @@ class StandardLinearSolid(_ZenerSolid):
     """
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
+        """Return E*(s) [MPa], a complex array of the shape of ``s`` [1/s]."""
         return np.asarray(
             self.level * (self.modulus + self.stiffening * _maxwell(s, self.relaxation_times[0]))
         )
@@ -183,7 +183,7 @@ class Prony(Viscoelastic):
         object.__setattr__(self, "terms", _checked_terms(self.terms))
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
+        """Return E*(s) [MPa], a complex array of the shape of ``s`` [1/s]."""
         total = np.full(np.shape(s), self.modulus, dtype=np.complex128)
         for (modulus, _), time in zip(self.terms, self.relaxation_times, strict=True):
             total = total + modulus * _maxwell(s, time)
@@ -196,7 +196,7 @@ class Prony(Viscoelastic):
 
     @property
     def glassy_modulus(self) -> float:
-        """E_inf and all E_i together, at the material's temperature [MPa]."""
+        """Sum of E_inf and all E_i at the material's temperature [MPa]."""
         return self.level * (self.modulus + sum(modulus for modulus, _ in self.terms))
 
     @property
@@ -218,7 +218,7 @@ class FractionalZener(_ZenerSolid):
     modulus :
         relaxed modulus E0 [MPa], from 1e-9 to 1e12.
     stiffening :
-        k [MPa], >= 0: glassy modulus less relaxed modulus.
+        k [MPa], >= 0: glassy modulus minus relaxed modulus.
     relaxation_time :
         tau [s], positive.
     order :
@@ -246,7 +246,7 @@ class FractionalZener(_ZenerSolid):
         object.__setattr__(self, "order", float(self.order))
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
+        """Return E*(s) [MPa], a complex array of the shape of ``s`` [1/s]."""
         fraction = _fractional_maxwell(s, self.relaxation_times[0], self.order)
         return np.asarray(self.level * (self.modulus + self.stiffening * fraction))
 
@@ -256,9 +256,9 @@ class FractionalZener(_ZenerSolid):
 class LossFactor(Viscoelastic):
     """A constant loss factor: E* = E (1 + i eta sign(w)) at the frequency w, E at w = 0.
 
-    It is not causal (a real material with constant loss stiffens, slowly, with frequency), so it
-    has no answer in time; in steady states, where only frequencies are asked for, it serves.
-    Since it knows no time scale, a temperature shift leaves it as it is.
+    It is not causal (a real material with constant loss stiffens slowly with frequency), so that it
+    has no response in time. In steady states, where only frequencies matter, it can be used. Since
+    it has no time scale, a_T has no effect on it; b_T scales its modulus.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ class LossFactor(Viscoelastic):
         object.__setattr__(self, "loss_factor", float(self.loss_factor))
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
-        """E*(s) [MPa], complex array of the shape of ``s`` [1/s]; w = Im s."""
+        """Return E*(s) [MPa], a complex array of the shape of ``s`` [1/s]; w = Im s."""
         sign = np.sign(np.asarray(s, dtype=np.complex128).imag)
         return np.asarray(self.level * self.modulus * (1.0 + 1j * self.loss_factor * sign))
 

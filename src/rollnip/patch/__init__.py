@@ -1,4 +1,4 @@
-"""The contact patch in three dimensions: pressure, stick and slip of rollers bounded across."""
+"""The contact patch in three dimensions: pressure, stick and slip of rollers of finite width."""
 
 from rollnip.patch.coefficients import Grid
 from rollnip.patch.covering_ends import covering_end

@@ -1,13 +1,14 @@
 """Influence coefficients of uniformly loaded rectangles on a uniform grid.
 
-A coefficient is the displacement in the middle of one rectangle under a unit traction over another.
+A coefficient is the displacement at the middle of one rectangle under a unit traction on another.
 The half-space part is the integral of the point solutions of Boussinesq and Cerruti over a
 rectangle, in closed form (Love 1929, Phil. Trans. R. Soc. A 228, 377-420; Johnson 1985, 3.4):
 
     int 1/r = x asinh(y/|x|) + y asinh(x/|y|),  int x^2/r^3 = y asinh(x/|y|),  int xy/r^3 = -r,
     int x/r^2 = y ln r - y + x atan(y/x),
 
-each between the corners. What layers add is smooth and integrated by Gauss points.
+each taken between the corners. The contribution of layers is smooth and is integrated by Gauss
+points.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ class Grid:
 
     @classmethod
     def over(cls, x: tuple[float, float], y: tuple[float, float], nx: int, ny: int) -> Grid:
-        """Return the grid that divides a rectangle, x and y from its first to its last side."""
+        """Return the grid that divides a rectangle; x and y are its extents along both axes."""
         hx, hy = (x[1] - x[0]) / nx, (y[1] - y[0]) / ny
         return cls(x[0] + 0.5 * hx, y[0] + 0.5 * hy, hx, hy, nx, ny)
 
@@ -66,7 +67,7 @@ class Grid:
 
     @property
     def reach(self) -> float:
-        """Largest distance between points of the grid, one rectangle beyond it included [mm]."""
+        """Largest distance between points of the grid plus one rectangle at each end [mm]."""
         return float(np.hypot((self.nx + 2) * self.hx, (self.ny + 2) * self.hy))
 
 
@@ -74,12 +75,13 @@ class Grid:
 class Coefficients:
     """Influence coefficients for distances -nx ... nx along x and 0 ... ny along y.
 
-    Over y, xx, yy, zz and xz are even, xy and yz are odd.
+    xx, yy, zz and xz are even in y, xy and yz are odd.
 
     Attributes
     ----------
-    xx, xy, yy, zz, xz, yz : (ny + 1, 2 nx + 1) [mm/MPa]; xz is u_x of the pressure.
-    is_symmetric : whether xx, yy, zz and yz are even in x as well, xy and xz odd: elastic bodies.
+    xx, xy, yy, zz, xz, yz : (ny + 1, 2 nx + 1) [mm/MPa]; xz is u_x per unit pressure.
+    is_symmetric : whether the bodies are elastic: xx, yy, zz and yz are then even in x as well, xy
+        and xz odd.
     """
 
     xx: Array
@@ -102,7 +104,7 @@ def coefficients(kernel: PairKernel, grid: Grid) -> Coefficients:
 
 
 def quadrant(kernel: PairKernel, grid: Grid) -> Array:
-    """Return xx, xy, yy, zz, xz, yz for distances from 0 on, (6, ny + 1, nx + 1) [mm/MPa]."""
+    """Return xx, xy, yy, zz, xz, yz for non-negative distances, (6, ny + 1, nx + 1) [mm/MPa]."""
     values = half_space_coefficients(kernel.half_space, grid)
     for table, sign in kernel.tables:
         values += _layered(table, grid, sign)
@@ -110,7 +112,10 @@ def quadrant(kernel: PairKernel, grid: Grid) -> Array:
 
 
 def both_sides(values: Array) -> Array:
-    """Return coefficients of elastic bodies to both sides of 0 along x, (6, ny + 1, 2 nx + 1)."""
+    """Return the coefficients for distances of both signs along x, (6, ny + 1, 2 nx + 1).
+
+    The bodies must be elastic.
+    """
     return np.concatenate([_ODD * values[:, :, :0:-1], values], axis=2)
 
 
@@ -139,7 +144,7 @@ def half_space_coefficients(body: HalfSpace, grid: Grid) -> Array:
 
 
 def _layered(table: RadialTable, grid: Grid, sign: float) -> Array:
-    """Return what one roller's layers add, (6, ny + 1, nx + 1)."""
+    """Return the contribution of one roller's layers, (6, ny + 1, nx + 1)."""
     gauss_x, gauss_y = (gauss(h, table.finest) for h in (grid.hx, grid.hy))
     x = np.arange(grid.nx + 1)[None, :] * grid.hx
     y = np.arange(grid.ny + 1)[:, None] * grid.hy
@@ -151,7 +156,10 @@ def _layered(table: RadialTable, grid: Grid, sign: float) -> Array:
 
 
 def layered_at(table: RadialTable, x: Array, y: Array, sign: float) -> Array:
-    """Return what one roller's layers add under a point force, (6, ...) over places x, y [1/N]."""
+    """Return the contribution of one roller's layers under a point force, (6, ...) [1/N].
+
+    ``x`` and ``y`` are the distances from the force.
+    """
     r = np.hypot(x, y)
     s, t0, t2, z, x1 = np.moveaxis(table.spline(r), -1, 0)
     safe = np.maximum(r, 1e-300)
@@ -171,7 +179,7 @@ def half_space_at(body: HalfSpace, x: Array, y: Array) -> Array:
 
 
 def gauss(side: float, finest: float) -> tuple[Array, Array]:
-    """Return places and weights of Gauss points over the side of a rectangle."""
+    """Return positions and weights of Gauss points over the side of a rectangle."""
     count = min(2 + int(2.0 * side / finest), _MOST_POINTS)
     points, weights = np.polynomial.legendre.leggauss(count)
     return 0.5 * side * points, 0.5 * side * weights

@@ -1,7 +1,7 @@
-"""Free convolutions on a grid: displacements under tractions, by transforms padded with zeros.
+"""Aperiodic convolutions on a grid: displacements under tractions, by zero-padded transforms.
 
-On twice the grid nothing wraps around: a product is exact to rounding, O(n log n) in time and O(n)
-in memory.
+On a grid of twice the size nothing wraps around. A product is exact to rounding, and costs O(n log
+n) in time and O(n) in memory.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Convolutions:
     Attributes
     ----------
     grid : nx by ny rectangles.
-    coefficients : for the distances on this grid.
+    coefficients : influence coefficients for the distances on this grid.
     """
 
     grid: Grid
@@ -39,7 +39,7 @@ class Convolutions:
 
     @property
     def largest(self) -> float:
-        """Largest u_z of a rectangle under a unit pressure over one [mm/MPa]."""
+        """Largest u_z of a rectangle under a unit pressure on it [mm/MPa]."""
         return float(np.max(self.coefficients.zz))
 
     @cached_property
@@ -65,25 +65,25 @@ class Convolutions:
 
     @cached_property
     def coupling(self) -> tuple[Spectrum, Spectrum]:
-        """Transforms of the coefficients xz and yz over i; real where they are symmetric."""
+        """Transforms of the coefficients xz and yz, divided by i; real where they are symmetric."""
         c = self.coefficients
         return self._transformed(c.xz, 1.0, -1j), self._transformed(c.yz, -1.0, -1j)
 
     @cached_property
     def couples(self) -> bool:
-        """True where pressure shears the surfaces against each other."""
+        """Whether pressure displaces the surfaces tangentially against each other."""
         c = self.coefficients
         return bool(np.any(c.xz) or np.any(c.yz))
 
     @cached_property
     def downstream(self) -> ComplexArray:
-        """Factor that turns displacements into (u_i - u_(i+1))/hx, i counted along x."""
+        """Factor in the transform that turns displacements into (u_i - u_(i+1))/hx, i along x."""
         size = self.shape[1]
         turn = np.exp(2j * np.pi * np.arange(size // 2 + 1) / size)
         return np.asarray((1.0 - turn) / self.grid.hx)
 
     def symmetric(self) -> Convolutions:
-        """Return the products with the symmetric part of the coefficients zz."""
+        """Return the convolutions with the symmetric part of the coefficients zz."""
         c = self.coefficients
         even = replace(c, zz=0.5 * (c.zz + c.zz[:, ::-1]), is_symmetric=True)
         return Convolutions(self.grid, even)
@@ -93,12 +93,16 @@ class Convolutions:
         return self.back(self.forward(pressure) * self.zz)
 
     def displacement(self, pressure: Array, shear: Array) -> Array:
-        """Return u_x and u_y of the upper surface against the lower, u_z of both, (3, ny, nx) [mm].
+        """Return u_x and u_y of the upper surface relative to the lower, and u_z of both together.
 
         Parameters
         ----------
         pressure : (ny, nx) [MPa].
         shear : (2, ny, nx) on the upper surface [MPa].
+
+        Returns
+        -------
+        (3, ny, nx) [mm].
         """
         p, x, y = (self.forward(part) for part in (pressure, *shear))
         xx, xy, yy = self.shear
@@ -116,12 +120,12 @@ class Convolutions:
         return np.asarray(rfft2(values, self.shape, workers=1))
 
     def back(self, spectrum: ComplexArray) -> Array:
-        """Return the values on the grid of a transform."""
+        """Return the values on the grid from their transform."""
         values = irfft2(spectrum, self.shape, workers=1, overwrite_x=True)
         return np.asarray(values[: self.grid.ny, : self.grid.nx])
 
     def _transformed(self, half: Array, parity_y: float, factor: complex = 1.0) -> Spectrum:
-        """Return the transform of coefficients, times a factor that makes symmetric ones real."""
+        """Return the transform of coefficients, with a factor that makes symmetric ones real."""
         ny, nx = self.grid.ny, self.grid.nx
         circle = np.zeros(self.shape)
         circle[: ny + 1, : nx + 1] = half[:, nx:]

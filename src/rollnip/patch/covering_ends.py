@@ -1,12 +1,14 @@
 """The free end of a covering: the nip near the place where the covering itself ends.
 
-The covering ends with a face free of stress, and both rollers, or their cores, go on or end there
-as well. A nearly incompressible covering bulges there and carries less than in the plane nip: a
-thin one lacks the load on about the nip width over pi, one half as thick as the nip is wide the
-load on half of the width. A compressible covering carries less over about its thickness.
+The covering ends in a stress-free face; both rollers, or their cores, continue beyond it or end
+there as well. A nearly incompressible covering bulges at its end and carries less load than in the
+plane nip. A thin one loses the load of a length of about the nip width over pi; one half as thick
+as the nip is wide loses that of half the width. In a compressible covering the load is reduced over
+a length of about its thickness.
 
-Along x, waves; along y, pressures that are linear between places: see `rollnip.patch.strip_ends`.
-The pressure is mirrored at x = 0 and repeats so far away that the covering does not feel it.
+The pressure is a sum of waves along x, and linear between places along y: see
+`rollnip.patch.strip_ends`. It is mirrored at x = 0 and periodic, with a period so long that the
+covering does not feel the images.
 """
 
 from __future__ import annotations
@@ -30,19 +32,23 @@ from rollnip.rollers import Roller
 Ending = Literal["both", "upper", "lower"]
 
 _ALONG = 40
-"""Points over half of the nip width."""
+"""Number of points over half of the nip width."""
 _REST = 5.0
-"""Length beyond the nip, in thicknesses, before the pressure is mirrored."""
+"""Distance from the nip to the mirror plane of the pressure, in thicknesses."""
 _WIDEST, _WIDER = 1.75, 1.2
-"""Half of the widest nip over that of the undeformed overlap, 3^(1/2) for thin rubber; room."""
+"""Largest ratio of the nip width to the width of the undeformed overlap (3^(1/2) for thin rubber);
+ratio of the width that may carry pressure to the nip width."""
 _FACE = (4.0, 5.0)
-"""Length of the face computed, in nip widths and in thicknesses."""
+"""Length of face that is computed, in nip widths and in thicknesses (the sum of both)."""
 _FINEST = 12.0
-"""Elements in the smaller of thickness and width, if all were as the one at the surface."""
+"""Number of elements in the smaller of thickness and nip width, if all were like the one at the
+surface.
+"""
 _FIRST, _GROWTH, _LARGEST = 16.0, 1.35, 10.0
-"""Lengths along y: the first one in the smaller of thickness and width; the largest in both."""
+"""Elements along y: number of first ones in the smaller of thickness and nip width, ratio of one to
+the one before, number of largest ones in the sum of nip width and thickness."""
 _PLACES = 512
-"""Equal parts of the face in the result."""
+"""Number of equal parts of the face in the result."""
 _ITERATION = 1e-5
 
 
@@ -52,22 +58,22 @@ def covering_end(upper: Roller, lower: Roller, approach: float, ending: Ending =
     Parameters
     ----------
     upper, lower :
-        with elastic layers, which count as flat, on rigid cores.
+        with elastic layers, taken as flat, on rigid cores.
     approach :
         of the axles, the same along the face [mm].
     ending :
-        whose covering ends: "both" (one roller may be bare), "upper" or "lower"; then the other
-        one goes on.
+        whose covering ends: "both" (one roller may be bare), "upper" or "lower"; the other one then
+        continues.
 
     Returns
     -------
     FaceEnd
-        of equal parts of the face: mean line load and mean of the peak pressure over each.
+        over equal parts of the face, with the mean line load and the mean peak pressure of each.
 
     Raises
     ------
     InvalidInputError
-        where a core is a half-space, a layer is viscoelastic, no covering ends or the rollers do
+        where a core is a half-space, a layer is viscoelastic, no covering ends, or the rollers do
         not make a nip.
     ConvergenceError
         where the pressure cannot be found.
@@ -115,15 +121,15 @@ def _require_ends(upper: Roller, lower: Roller, approach: float, ending: Ending)
 
 @dataclass(frozen=True)
 class _MeanDisplacements:
-    """Mean displacements under pressures, both scaled by the root of the length of their place.
+    """Mean displacements under pressures, both scaled by the root of the length of their element.
 
-    Pressures act at a few points x only; the covering feels them over a far longer way.
+    Pressures act at a few points x only; the covering is felt over a far longer stretch of x.
 
     Attributes
     ----------
     waves : (2 n, m, m) compliance at the wave numbers of a cosine transform over twice the n points
-        that may carry pressure: free of images for these [mm/MPa].
-    largest : largest displacement of a place under a unit pressure there [mm/MPa].
+        that may carry pressure, so that these feel no images [mm/MPa].
+    largest : largest displacement of an element under a unit pressure on it [mm/MPa].
     """
 
     waves: Array
@@ -133,13 +139,14 @@ class _MeanDisplacements:
     def of(
         cls, count: int, points: int, long: Array, short: Sequence[tuple[Array, Array]] = ()
     ) -> _MeanDisplacements:
-        """Take the part for ``count`` points out of the compliance over a longer way.
+        """Return the part for ``count`` points of the compliance over a longer stretch.
 
         Parameters
         ----------
-        count, points : that may carry pressure; of the longer way.
-        long : (n, m, m) compliance at its first wave numbers, scaled [mm/MPa].
-        short : compliance at the others, as factors (points - n,) on matrices (m, m), which add up.
+        count, points : number of points that may carry pressure; number on the longer stretch.
+        long : (n, m, m) compliance at the first wave numbers of the latter, scaled [mm/MPa].
+        short : compliance at the other wave numbers, as pairs of factors (points - n,) and a matrix
+            (m, m), whose products add up.
         """
         turns = np.cos(np.pi / points * np.outer(np.arange(2 * count + 1), np.arange(points)))
         turns[:, 0] = 0.5
@@ -158,11 +165,11 @@ class _MeanDisplacements:
 
     @property
     def element(self) -> float:
-        """Area that stands for one value: 1, as no force is given."""
+        """Area that stands for one value; 1, because no force is prescribed."""
         return 1.0
 
     def symmetric(self) -> _MeanDisplacements:
-        """Return itself: elastic coverings."""
+        """Return the object itself, because elastic coverings are symmetric."""
         return self
 
 
@@ -185,12 +192,12 @@ class _CoveringEnd:
 
     @property
     def loads(self) -> Array:
-        """Line loads over that of the plane nip, (m,)."""
+        """Line loads relative to that of the plane nip, (m,)."""
         return np.asarray(np.sum(self.pressure, axis=0) / np.sum(self.plane))
 
     @property
     def added(self) -> float:
-        """Length that the end adds to the load [mm]."""
+        """Length of face that the end adds to the load [mm]."""
         return float(np.trapezoid(self.loads - 1.0, self.y))
 
     def result(self, error: float) -> FaceEnd:
@@ -218,7 +225,7 @@ def _means(y: Array, values: Array, edges: Array) -> Array:
 
 
 def _solved(pair: _PressedRollers, ending: Ending, half: float, fine: float) -> _CoveringEnd:
-    """Return the pressure near the end, on ``fine`` times as many places in each direction."""
+    """Return the pressure near the end, with ``fine`` times as many elements in each direction."""
     y = pair.places(2.0 * half, fine)
     step = half / (_ALONG * fine)
     x, k = pair.grid(step, half)
@@ -256,11 +263,11 @@ class _PressedRollers:
 
     @property
     def thicknesses(self) -> list[float]:
-        """Thickness of each covering there is [mm]."""
+        """Thicknesses of the coverings that exist [mm]."""
         return [one.coating_thickness for one in (self.upper, self.lower) if one.layers]
 
     def half_width(self) -> float:
-        """Return half of the width of the plane nip [mm], from above."""
+        """Return half the width of the plane nip [mm], approached from above."""
         half = _WIDEST * sqrt(2.0 * self.approach / self.curvature)
         for _ in range(2):
             x, k = self.grid(half / _ALONG, half)
@@ -270,7 +277,7 @@ class _PressedRollers:
         return half
 
     def grid(self, step: float, half: float) -> tuple[Array, Array]:
-        """Return points x > 0 that may carry pressure, and the wave numbers of a longer way."""
+        """Return points x > 0 that may carry pressure, and wave numbers of the longer stretch."""
         reach = _WIDER * half + _REST * max(self.thicknesses)
         inside, points = (int(np.ceil(way / step)) for way in (_WIDER * half, reach))
         x, k = step * (np.arange(inside) + 0.5), np.pi / (points * step) * np.arange(points)
@@ -282,11 +289,11 @@ class _PressedRollers:
         return np.asarray(np.sum(parts, axis=0)[:, None, None])
 
     def first(self, x: Array, half: float) -> Array:
-        """Return pressures to start from, (n, 1)."""
+        """Return initial pressures, (n, 1)."""
         return np.maximum(1.0 - (x / half) ** 2, 0.0)[:, None]
 
     def places(self, width: float, fine: float) -> Array:
-        """Return places along y, from the end on, with distances that grow to a largest one."""
+        """Return places along y from the end on, at distances that grow to a largest one."""
         thick = max(self.thicknesses)
         first = min(*self.thicknesses, width) / (_FIRST * fine)
         largest = max((width + thick) / (_LARGEST * fine), first)
@@ -299,7 +306,7 @@ class _PressedRollers:
         return np.concatenate([[0.0], np.cumsum(parts)])
 
     def pressed(self, x: Array, products: _MeanDisplacements, root: Array, start: Array) -> Array:
-        """Return pressures times the roots of the lengths of their places, (n, m)."""
+        """Return the pressures times the roots of the lengths of their elements, (n, m)."""
         gap = (0.5 * self.curvature * x**2 - self.approach)[:, None] * root
         scale = float(np.vdot(start, -gap) / np.vdot(start, products.normal(start)))
         found = solve_symmetric(NormalProblem(products, gap, None, 0.0), _ITERATION, scale * start)

@@ -1,7 +1,7 @@
-"""Stresses under a patch: the transformed tractions, carried down wave vector by wave vector.
+"""Stresses under a patch: transformed tractions, carried to depth for each wave vector.
 
-Along the wave vector and inwards the layers are in plane strain; across it they are sheared alone.
-With c and s the cosine and sine of the wave vector's angle, n along it and t across:
+Along the wave vector and the depth the layers are in plane strain; across it they are in pure
+shear. With c and s the cosine and sine of the wave vector's angle, n along it and t across:
 
     s_xx = c^2 s_nn + s^2 s_tt - 2 c s s_nt     s_xy = c s (s_nn - s_tt) + (c^2 - s^2) s_nt
     s_yy = s^2 s_nn + c^2 s_tt + 2 c s s_nt     s_xz = c s_nz - s s_tz,  s_yz = s s_nz + c s_tz
@@ -33,7 +33,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 class PatchResult(Protocol):
-    """The parts of a solved patch that depths are chosen by."""
+    """The attributes of a solved patch from which depths are chosen."""
 
     @property
     def patch(self) -> Patch:
@@ -41,7 +41,7 @@ class PatchResult(Protocol):
 
     @property
     def grid(self) -> Grid:
-        """Rectangles of the patch."""
+        """Grid of rectangles over the patch."""
 
     @property
     def length(self) -> float:
@@ -56,15 +56,17 @@ STRESSES = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz", "von_mises", "max_sh
 """The stresses under a patch: keys of `rollnip.figures.FIELDS`."""
 
 _ROOM = 4
-"""Sides of the window over those of the grid: images of the patch lie at least three grids away."""
+"""Sides of the periodic window over those of the grid: images of the patch are at least three grids
+away.
+"""
 _SHARES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5)
-"""Depths worth a look, over half the smaller side of the patch."""
+"""Usual depths, over half the smaller side of the patch."""
 _CELL = 16
-"""Wave vectors along each side of the cell around 0."""
+"""Number of wave vectors along each side of the cell around 0."""
 _TABLE = 1500
-"""Wave numbers at which elastic layers are computed."""
+"""Number of wave numbers at which elastic layers are computed."""
 _AT_ONCE = 100_000
-"""Wave vectors at which viscoelastic layers are computed at once."""
+"""Number of wave vectors at which viscoelastic layers are computed at once."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,7 +91,7 @@ class PatchStress(Sealed):
 
     @cached_property
     def von_mises(self) -> Array:
-        """Equivalent stress of von Mises, (nz, ny, nx) [MPa]."""
+        """Von Mises stress, (nz, ny, nx) [MPa]."""
         normal = (
             (self.s_xx - self.s_yy) ** 2
             + (self.s_yy - self.s_zz) ** 2
@@ -100,7 +102,7 @@ class PatchStress(Sealed):
 
     @cached_property
     def principal(self) -> Array:
-        """Principal stresses, the largest tension first, (3, nz, ny, nx) [MPa]."""
+        """Principal stresses, largest tension first, (3, nz, ny, nx) [MPa]."""
         rows = [
             [self.s_xx, self.s_xy, self.s_xz],
             [self.s_xy, self.s_yy, self.s_yz],
@@ -116,7 +118,7 @@ class PatchStress(Sealed):
 
 
 def usual_depths(solution: PatchResult, side: Side) -> list[float]:
-    """Return depths worth a look [mm]: some within the size of the patch, and the bonds."""
+    """Return depths of interest [mm]: some within the size of the patch, and the interfaces."""
     roller = solution.patch.upper if side == "upper" else solution.patch.lower
     half, grid = 0.5 * min(solution.length, solution.width), solution.grid
     bottom = roller.coating_thickness if roller.core is None else inf
@@ -128,15 +130,15 @@ def usual_depths(solution: PatchResult, side: Side) -> list[float]:
 def stress_at_depth(
     roller: Roller, grid: Grid, tractions: Array, depths: Sequence[float], speed: float
 ) -> PatchStress:
-    """Return the stresses in a roller on the places of a grid at some depths.
+    """Return the stresses in a roller at the middles of the rectangles of a grid, at given depths.
 
     Parameters
     ----------
-    roller : not a bare rigid one.
+    roller : with layers or a half-space core.
     grid : of the tractions.
     tractions : (3, ny, nx) along x, along y and inwards [MPa], as they act on this roller.
     depths : [mm], at least half the longer side of a rectangle.
-    speed : V [mm/s]; it counts for viscoelastic rollers.
+    speed : V [mm/s]; used for viscoelastic rollers.
 
     Raises
     ------
@@ -160,7 +162,7 @@ def stress_at_depth(
 
 @dataclass(frozen=True)
 class _WaveVectors:
-    """Wave vectors and the tractions that go with each, shapes that broadcast together.
+    """Wave vectors and the tractions of each, as arrays whose shapes broadcast together.
 
     Attributes
     ----------
@@ -173,7 +175,7 @@ class _WaveVectors:
     tractions: tuple[ComplexArray, ComplexArray, ComplexArray]
 
     def stresses(self, medium: _LayersAtDepth) -> tuple[ComplexArray, ...]:
-        """Return s_xx, s_yy, s_zz, s_xy, s_xz and s_yz of every wave vector."""
+        """Return s_xx, s_yy, s_zz, s_xy, s_xz and s_yz for every wave vector."""
         k = np.hypot(self.kx, self.ky)
         c, s = self.kx / k, self.ky / k
         x, y, inward = self.tractions
@@ -199,9 +201,10 @@ class _WaveVectors:
 class _TransformedTractions:
     """Transformed tractions on a window around the grid.
 
-    Over a half-space the wave of length 0 stands for a cell of wave vectors around it, in which
-    stresses go as |k|: it takes their mean over the cell. That is most of what images of the
-    patch would add. Over a rigid core stresses are smooth there, and die off before the images.
+    The wave vector 0 stands for a cell of wave vectors around it. Over a half-space stresses vary
+    as |k| there, and their mean over the cell is used. This replaces most of what images of the
+    patch would contribute. Over a rigid core stresses are smooth near 0, and decay before the
+    images.
     """
 
     def __init__(self, grid: Grid, tractions: Array) -> None:
@@ -238,13 +241,13 @@ class _TransformedTractions:
 
 @dataclass(frozen=True, slots=True)
 class _LayersAtDepth:
-    """The layers of a roller as seen at one depth.
+    """The response of a roller's layers at one depth.
 
     Attributes
     ----------
-    roller : that deforms.
+    roller : with layers or a half-space core.
     z : depth [mm].
-    speed : V [mm/s]; it counts for viscoelastic rollers.
+    speed : V [mm/s]; used for viscoelastic rollers.
     """
 
     roller: Roller
@@ -252,7 +255,7 @@ class _LayersAtDepth:
     speed: float
 
     def elastic(self, kx: Array) -> tuple[float, ComplexArray]:
-        """Return Poisson ratio and shear modulus; on an interface those above it."""
+        """Return Poisson ratio and shear modulus; on an interface those of the layer above."""
         interfaces = np.array(self.roller.interfaces)
         materials = self.roller.materials
         layer = int(np.searchsorted(interfaces, self.z * (1.0 - 1e-12), side="left"))
@@ -261,10 +264,11 @@ class _LayersAtDepth:
         return material.poisson, young / (2.0 * (1.0 + material.poisson))
 
     def amplitudes(self, k: Array, kx: Array) -> ComplexArray:
-        """Return what a unit traction of each wave vector makes, (8, ...).
+        """Return the response to unit tractions for each wave vector, (8, ...).
 
-        s_nn/i, s_zz/i and s_nz of the traction along; s_nn, s_zz and s_nz/i of that inwards; the
-        displacement across and the traction left of that across.
+        s_nn/i, s_zz/i and s_nz of the traction along the wave vector; s_nn, s_zz and s_nz/i of the
+        traction inwards; the displacement across the wave vector, and the traction that is left of
+        the one across.
         """
         if self.roller.is_viscoelastic:
             kx = np.broadcast_to(kx, k.shape).ravel()
@@ -280,7 +284,7 @@ class _LayersAtDepth:
         return np.asarray(table(np.log(k)))
 
     def _computed(self, k: Array, kx: Array) -> ComplexArray:
-        """Return the same for wave vectors in a row, (8, n)."""
+        """Return `amplitudes` for a one-dimensional array of wave vectors, (8, n)."""
         below = roller_stack(self.roller, kx, self.speed)
         along = flat_fields(k, [self.z], 1.0, 0.0, *below)
         inward = flat_fields(k, [self.z], 0.0, 1.0, *below)

@@ -1,9 +1,9 @@
-"""Readings of a durometer on a covering: the Shore A indenter on layers of any thickness.
+"""Durometer readings on a covering: the Shore A indenter on layers of any thickness.
 
-The indenter of Shore A (ISO 48-4, ASTM D2240) is a cone of 35 degrees cut to a flat tip of 0.79 mm,
-on a shaft of 1.25 mm. A spring presses it with 0.55 N + 0.075 N S, S the hardness, where it stands
-out of its foot by 2.5 mm (1 - S/100). The reading is the S at which the covering, linearly
-elastic and without friction, carries that force at that depth.
+The Shore A indenter (ISO 48-4, ASTM D2240) is a cone of 35 degrees truncated to a flat tip of 0.79
+mm, on a shaft of 1.25 mm. At the hardness S a spring presses it with 0.55 N + 0.075 N S, and it
+protrudes from its foot by 2.5 mm (1 - S/100). The reading is the S at which the covering, taken as
+linearly elastic and frictionless, carries that force at that depth.
 """
 
 from __future__ import annotations
@@ -37,18 +37,18 @@ _SAME_THICKNESS = 0.02
 
 @dataclass(frozen=True)
 class Indentation:
-    """The Shore A indenter on a covering of linear elasticity.
+    """The Shore A indenter on a linearly elastic covering.
 
     Attributes
     ----------
-    products : displacements of the covering's surface.
+    products : displacements of the covering's surface under pressures.
     """
 
     products: Convolutions
 
     @classmethod
     def of(cls, layers: Sequence[Layer], core: Material | None = None) -> Indentation:
-        """Return the indentation of a covering, layers from the surface to the core.
+        """Return the indentation of a covering, given its layers from the surface to the core.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Indentation:
         Raises
         ------
         InvalidInputError
-            for a covering so soft or so hard that the reading would lie beyond.
+            for a covering so soft or so hard that the reading would lie outside this range.
         """
 
         def wrong(hardness: float) -> float:
@@ -99,10 +99,10 @@ class Indentation:
 
 
 def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> float:
-    """Return what a Shore A durometer reads on a covering.
+    """Return the Shore A hardness that a durometer reads on a covering.
 
-    The strains under a durometer are large, and the covering is taken as linearly elastic: the
-    number is an estimate. What it is for is the *difference* between a sheet and a thick block.
+    The strains under a durometer are large, while the covering is taken as linearly elastic: the
+    number is an estimate. It is meant for the *difference* between a sheet and a thick block.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> fl
     Raises
     ------
     InvalidInputError
-        where nothing would deform, a material is viscoelastic, or the reading lies beyond 1 to 99.
+        where nothing would deform, a material is viscoelastic, or the reading lies outside 1 to 99.
 
     References
     ----------
@@ -129,19 +129,19 @@ def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> fl
 
 
 def least_thickness(material: Material, within: float = 1.0) -> float:
-    """Return how thick a sheet on a rigid base must be to read as a thick block does [mm].
+    """Return the thickness from which a sheet on a rigid base reads like a thick block [mm].
 
     Parameters
     ----------
     material :
         of the sheet, elastic.
     within :
-        most points of Shore A by which the sheet may read harder than the block.
+        points of Shore A by which the sheet may read harder than the block.
 
     Raises
     ------
     InvalidInputError
-        where ``within`` is not positive, or the readings lie beyond 1 to 99.
+        where ``within`` is not positive, or the readings lie outside 1 to 99.
     """
     allowed = require_positive("within", within) + shore_a_reading([], material)
 
@@ -164,6 +164,6 @@ def least_thickness(material: Material, within: float = 1.0) -> float:
 
 
 def _clearance(r: Array) -> Array:
-    """Return the height of the indenter over its tip, (ny, nx) [mm]; inf beside the shaft."""
+    """Return the height of the indenter above its tip, (ny, nx) [mm]; inf beside the shaft."""
     side = np.maximum(r - _TIP, 0.0) / _SLOPE
     return np.where(r <= _SHAFT, side, inf)

@@ -1,7 +1,7 @@
 """The end of a face: the nip near the place where one roller ends on the other's covering.
 
-Far from the end the nip is the plane one. At a sharp end the covering that runs on beyond it helps
-to carry, so that the line load rises there. A nearly incompressible covering also gives way
+Far from the end the nip is the plane one. At a sharp end the covering that continues beyond it
+helps to carry, so that the line load rises there. A nearly incompressible covering also yields
 sideways, over about a third of the nip width, and carries less than in the plane nip. This is the
 end of the *contact*; for a covering that itself ends there see `rollnip.patch.covering_ends`.
 """
@@ -24,26 +24,27 @@ from rollnip.patches import Across, Patch
 from rollnip.rollers import Roller
 
 _ALONG = 48
-"""Rectangles along x."""
+"""Number of rectangles along x."""
 _ACROSS = 256
-"""Rectangles along y, over the whole face."""
+"""Number of rectangles along y, over the whole face."""
 _FACE = 10.0
-"""Length of the face computed, in nip widths and thicknesses together."""
+"""Length of face that is computed, over the sum of nip width and thicknesses."""
 _ITERATION = 1e-5
 
 
 @dataclass(frozen=True)
 class FaceEnd:
-    """A nip near the end of a face, over the distance from the end.
+    """A nip near the end of a face, as functions of the distance from the end.
 
     Attributes
     ----------
-    distance : (n,) from the end into the face [mm], rising.
-    load, peak_pressure : (n,) over those far from the end.
+    distance : (n,) from the end into the face [mm], increasing.
+    load, peak_pressure : (n,) line load and peak pressure, relative to those far from the end.
     line_load : far from the end [N/mm].
     added_length : length of face that the end adds to the load of the plane nip [mm]; negative
         where the end carries less.
-    error : of ``added_length``, from half as many rectangles or places in each direction [mm].
+    error : of ``added_length``, from a solution with half as many rectangles or elements in each
+        direction [mm].
     """
 
     distance: Array
@@ -60,12 +61,12 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
     Parameters
     ----------
     upper, lower :
-        elastic; layers count as flat and run on beyond the end. Cores must be rigid: over a
+        elastic; layers are taken as flat and continue beyond the end. Cores must be rigid: over a
         half-space no nip is plane.
     approach :
         of the axles, the same along the face [mm].
     end_radius :
-        with which the end is rounded [mm]; 0 is a sharp edge.
+        radius with which the end is rounded [mm]; 0 is a sharp edge.
 
     Raises
     ------
@@ -114,7 +115,7 @@ def _along_the_face(level: Level) -> tuple[Array, Array]:
 
 
 def _added(level: Level) -> float:
-    """Return the length that one end adds to the load [mm]."""
+    """Return the length of face that one end adds to the load [mm]."""
     loads, _ = _along_the_face(level)
     middle = loads[loads.size // 2]
     return 0.5 * float(np.sum(loads / middle - 1.0)) * level.grid.hy

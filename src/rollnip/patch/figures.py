@@ -1,7 +1,7 @@
 """The registry of the figures of a patch: scalars, and fields over the grid.
 
-Summaries, JSON, netCDF, ParaView, tables of sweeps and the documentation read it. A figure is added
-here and as an attribute of `PatchSolution`.
+Summaries, JSON, netCDF, ParaView, tables of sweeps and the documentation all read it. To add a
+figure, add it here and as an attribute of `PatchSolution`.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ class PatchFigure(Figure):
 
     Attributes
     ----------
-    when : in which summaries it stands: always, or of patches with friction, with viscoelastic
-        layers (losses), or with a speed.
+    when : in which summaries it stands: in all, or in those of patches with friction, with
+        viscoelastic layers (losses), or with a speed.
     """
 
     _: KW_ONLY
@@ -206,7 +206,7 @@ PATCH_FIGURES: Mapping[str, PatchFigure] = by_key(
 """The scalar figures of a patch by key, in the order of the JSON."""
 
 CLAIMED: Mapping[str, PatchFigure] = {k: one for k, one in PATCH_FIGURES.items() if one.claimed}
-"""Those whose error is estimated."""
+"""The scalar figures whose error is estimated."""
 
 PATCH_FIELDS: Mapping[str, PatchFigure] = by_key(
     _F("pressure", "pressure", "pressure", "Pressure, positive in compression.", symbol="p"),

@@ -1,16 +1,16 @@
 """Displacement of elastic surfaces under point forces: half-space in closed form, layers by table.
 
-For the wave vector k (cos f, sin f), tractions along it and inwards see the plane-strain
-compliances P = C_xx, Z = C_zz and i X = C_xz of `rollnip.compliance`; tractions across it see S.
-Turned back to x and y, with T = P - S,
+For the wave vector k (cos f, sin f), tractions along it and inwards are resisted by the
+plane-strain compliances P = C_xx, Z = C_zz and i X = C_xz of `rollnip.compliance`, tractions across
+it by S. Rotated back to x and y, with T = P - S,
 
     C_xx = S + T cos^2 f,  C_xy = T cos f sin f,  C_yy = S + T sin^2 f,  C_zz = Z,
     C_xz = i X cos f = -C_zx,  C_yz = i X sin f = -C_zy.
 
-Each of S, T, Z, X goes to a/k for large k, the half-space of the top layer. What is left falls as
-exp(-2 k d) and is a function of k alone: at the distance r from the force it is the Hankel integral
-(1/2 pi) int f(k) J_n(k r) k dk, n = 0 for S and Z, 0 and 2 for T, 1 for X. It is tabulated over r.
-Nothing here is periodic, so no image of a contact acts on it.
+Each of S, T, Z, X tends to a/k for large k, the half-space of the top layer. The remainder decays
+as exp(-2 k d) and is a function of k alone: at the distance r from the force it is the Hankel
+integral (1/2 pi) int f(k) J_n(k r) k dk, n = 0 for S and Z, 0 and 2 for T, 1 for X. It is tabulated
+over r. Nothing here is periodic, so that no image of a contact acts on it.
 """
 
 from __future__ import annotations
@@ -34,19 +34,19 @@ Array = NDArray[np.float64]
 FADED = 16.0
 """k d at which exp(-2 k d) (k d)^2 is 3e-12 of the half-space."""
 _NODES = 16
-"""Gauss points of a panel of wave numbers."""
+"""Number of Gauss points on a panel of wave numbers."""
 _PANEL = 6.0
-"""Largest k r over a panel: the Bessel functions turn once."""
+"""Largest k r over a panel, over which the Bessel functions oscillate once."""
 _FINEST = 24.0
-"""Places of the table within the thinnest length of the layers."""
+"""Number of places of the table within the thinnest layer."""
 _GROWTH = 30.0
-"""Places of the table within one e-fold of distance, beyond the thinnest length."""
+"""Number of places of the table in a factor e of distance, beyond the thinnest layer."""
 _CHUNK = 2_000_000
-"""Values of a Bessel function that are held at once."""
+"""Number of values of a Bessel function that are held at once."""
 
 
 class WaveCompliance(NamedTuple):
-    """S, T, Z and X at some wave numbers, (n,) each [mm/MPa]."""
+    """S, T, Z and X at given wave numbers, (n,) each [mm/MPa]."""
 
     s: Array
     t: Array
@@ -56,7 +56,7 @@ class WaveCompliance(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HalfSpace:
-    """Coefficients of 1/k of S, T, Z and X for large k [1/MPa]."""
+    """Coefficients of 1/k in S, T, Z and X for large k [1/MPa]."""
 
     s: float = 0.0
     t: float = 0.0
@@ -68,19 +68,19 @@ class HalfSpace:
 
     @classmethod
     def of(cls, young: float, poisson: float) -> HalfSpace:
-        """Return the coefficients of a half-space, modulus in MPa."""
+        """Return the coefficients of a half-space, its modulus in MPa."""
         even, odd = (float(v) for v in half_space_limit(young, poisson))
         across = 2.0 * (1.0 + poisson) / young
         return cls(s=across, t=even - across, z=even, x=odd)
 
     def mirrored(self) -> HalfSpace:
-        """Return the coefficients for a body on the other side, whose shear is turned round."""
+        """Return the coefficients for a body on the other side, whose shear is reversed."""
         return HalfSpace(self.s, self.t, self.z, -self.x)
 
 
 @dataclass(frozen=True)
 class RadialTable:
-    """Addition of layers to the half-space of the top layer, over the distance from a point force.
+    """What layers add to the half-space of the top layer, over the distance from a point force.
 
     Attributes
     ----------
@@ -98,14 +98,14 @@ class RadialTable:
 class PairKernel:
     """Displacement of both surfaces together under the tractions between them.
 
-    Shear acts on the upper surface along +x and +y and on the lower one against it; u_x and u_y are
-    upper less lower, u_z the sum of both inwards.
+    Shear acts on the upper surface along +x and +y, and on the lower one in the opposite direction;
+    u_x and u_y are upper minus lower, u_z the sum of both inwards.
 
     Attributes
     ----------
     half_space : closed-form part.
-    tables : one for each roller with layers, with the sign of its X; like rollers share one, and
-        their X cancel: 0.
+    tables : one for each roller with layers, with the sign of its X. Identical rollers share one
+        table; their X cancel, and the sign is 0.
     """
 
     half_space: HalfSpace
@@ -133,7 +133,7 @@ def pair_kernel(upper: Roller, lower: Roller, reach: float) -> PairKernel:
 
 
 _EVEN = np.array([1.0, 1.0, 1.0, 1.0, 0.0])
-"""Two like surfaces do not shear against each other under pressure."""
+"""Two identical surfaces are not sheared against each other by pressure."""
 
 
 def _half_space(roller: Roller) -> HalfSpace:
@@ -166,13 +166,13 @@ def radial_table(roller: Roller, reach: float) -> RadialTable:
 def tabulated(
     waves: tuple[Array, Array], rests: Array, thinnest: float, reach: float
 ) -> list[RadialTable]:
-    """Return tables over the distance of functions of the wave number.
+    """Return tables over the distance, of functions of the wave number.
 
     Parameters
     ----------
     waves : (n,) wave numbers and weights of `wave_numbers`.
     rests : (m, 4, n) k times S, T, Z and X, less the half-space [1/MPa].
-    thinnest : length over which they fall, the thinnest layer [mm].
+    thinnest : length over which they decay, the thinnest layer [mm].
     reach : largest distance [mm].
     """
     k, weights = waves
@@ -205,7 +205,7 @@ def wave_numbers(thinnest: float, reach: float) -> tuple[Array, Array]:
 
 
 def _places(thinnest: float, reach: float) -> Array:
-    """Return distances: even within the thinnest layer, then growing with the distance."""
+    """Return distances: evenly spaced within the thinnest layer, then in a geometric series."""
     near = np.linspace(0.0, thinnest, int(_FINEST) + 1)
     if reach <= thinnest:
         return np.linspace(0.0, reach, int(_FINEST) + 1)

@@ -1,4 +1,4 @@
-"""Linear systems by GMRES with a preconditioner on the right, restarted."""
+"""Solution of linear systems by restarted GMRES with a right preconditioner."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def gmres(
     right: Array,
     tolerance: float,
 ) -> Array:
-    """Return x with |right - A x| < tolerance |right|, or the best after 300 products.
+    """Return x with |right - A x| < tolerance |right|, or the best one after 300 products.
 
     Parameters
     ----------
-    product : A times a vector.
-    roughly : an approximate inverse times a vector.
+    product : function that returns A times a vector.
+    roughly : function that returns an approximate inverse times a vector.
     right : (n,).
     tolerance : relative.
 
@@ -60,7 +60,7 @@ def _cycle(
     left = first
     for j in range(_VECTORS):
         vector = product(roughly(basis[j]))
-        for _ in range(2):  # the second pass takes out what rounding left in the first
+        for _ in range(2):  # the second pass removes what rounding left in the first
             for i, other in enumerate(basis):
                 part = float(other @ vector)
                 triangle[i, j] += part

@@ -1,4 +1,4 @@
-"""One patch on one grid: pressure, then shear, in turn until neither changes the other."""
+"""One patch on one grid: pressure and shear in turn, until neither changes the other."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from rollnip.rollers import Roller
 Mask = NDArray[np.bool_]
 
 _WAVES = 24
-"""Wave numbers at which the softness to shear is looked for."""
+"""Number of wave numbers at which the compliance to shear is evaluated for its largest value."""
 _SAME = 10.0
-"""Pressure and shear are taken to agree where a turn changes p by this times the tolerance."""
+"""Pressure and shear agree where one more turn changes p by less than this times the tolerance."""
 _TURNS = 40
-"""Most times that pressure and shear are computed in turn."""
+"""Largest number of turns in which pressure and shear are computed."""
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,11 @@ class Level:
 
     Attributes
     ----------
-    products : the grid and displacements under tractions on it.
+    products : the grid, and displacements under tractions on it.
     normal : pressure and approach.
     rolling : shear and creepages; None without friction.
-    turns : times that pressure and shear were computed.
-    change : largest change that the last of them made, of the peak pressure.
+    turns : number of times that pressure and shear were computed.
+    change : largest change of the pressure in the last turn, over the peak pressure.
     settled : whether all iterations met their tolerances.
     """
 
@@ -66,7 +66,7 @@ class Level:
 def solve_level(
     patch: Patch, grid: Grid, tolerance: float, start: Level | None, tables: PairTables
 ) -> Level:
-    """Solve a patch on one grid.
+    """Return a patch solved on one grid.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def solve_level(
 def _pressed(
     patch: Patch, grid: Grid, problem: NormalProblem, tolerance: float, start: Array | None
 ) -> NormalState:
-    """Return the pressure under the clearance at hand."""
+    """Return the pressure under a given clearance."""
     if not patch.is_viscoelastic:
         return solve_symmetric(problem, tolerance, start)
     near = np.isfinite(problem.clearance) if start is None else start > 0.0
@@ -128,7 +128,7 @@ def _rolled(
     start: tuple[tuple[float, float, float], Array | None],
     tolerance: float,
 ) -> RollingState:
-    """Return shear and creepages under the pressures at hand."""
+    """Return shear and creepages under given pressures."""
     contact = normal.pressure > 0.0
     rollers = (patch.upper, patch.lower)
     softness = _softness(rollers, products.grid)
@@ -145,7 +145,7 @@ def _rolled(
 
 
 def _softness(rollers: tuple[Roller, Roller], grid: Grid) -> float:
-    """Return the largest creep per shear of a wave that the grid holds [1/MPa]."""
+    """Return the largest creep per unit shear of any wave that the grid can hold [1/MPa]."""
     k = np.geomspace(np.pi / (grid.nx * grid.hx), np.pi / min(grid.hx, grid.hy), _WAVES)
     made = sum(waves_of(roller, k).s * k for roller in rollers if not roller.is_rigid)
     return float(np.max(made))
@@ -156,7 +156,7 @@ def _force_of(drive: Creepage | Force) -> float | None:
 
 
 def _creepages(patch: Patch, start: Level | None) -> tuple[float, float, float]:
-    """Return the creepages given, or those to start from."""
+    """Return the creepages, prescribed or from which to start."""
     found = (0.0, 0.0, 0.0)
     if start is not None and start.rolling is not None:
         found = start.rolling.creepages
@@ -168,7 +168,7 @@ def _creepages(patch: Patch, start: Level | None) -> tuple[float, float, float]:
 
 
 def _closed_by(products: Convolutions, shear: Array) -> Array:
-    """Return the sum of u_z inwards that shear makes, (ny, nx) [mm]."""
+    """Return the sum of the inward u_z of both surfaces due to shear, (ny, nx) [mm]."""
     spectrum = sum(
         1j * part * products.forward(q) for part, q in zip(products.coupling, shear, strict=True)
     )
@@ -176,7 +176,7 @@ def _closed_by(products: Convolutions, shear: Array) -> Array:
 
 
 def resampled(values: Array, old: Grid, new: Grid) -> Array:
-    """Return values on another grid, linear between the middles of the old rectangles, (ny, nx)."""
+    """Return values on another grid, linear between the middles of the old rectangles."""
     along = np.stack([np.interp(new.x, old.x, row, left=0.0, right=0.0) for row in values])
     columns = [np.interp(new.y, old.y, column, left=0.0, right=0.0) for column in along.T]
     return np.stack(columns, axis=1)

@@ -1,12 +1,13 @@
-"""One Newton step of rolling: a linear system for the change of the shear, by GMRES.
+"""One Newton step of rolling with friction: a linear system for the change of the shear, by GMRES.
 
-Where surfaces stick, K dq - dw = c, K dq = -d(du)/dx and c the creep that is left. Where they slip,
-z = q + c/kappa has the direction n and the size |z|, and the part of dq along t, across n, obeys
+Where surfaces stick, K dq - dw = c, with K dq = -d(du)/dx and c the creep that is left. Where they
+slip, z = q + c/kappa has the direction n and the size |z|, and the component of dq along t, across
+n, obeys
 
     (|z| - mu p)/(mu p stiffness) dq_t + (K dq - dw)_t = -q_t |z|/(mu p stiffness),
 
-the derivative of q = mu p z/|z|; along n, q becomes mu p at once. A given force adds a row, the sum
-of dq, and a column, the creepage that makes it.
+which is the derivative of q = mu p z/|z|; along n, q becomes mu p at once. A prescribed force adds
+a row, the sum of dq, and a column, the creepage that produces it.
 """
 
 from __future__ import annotations
@@ -27,12 +28,13 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Cone:
-    """The conditions of friction at one state: what sticks, what slips, and which way.
+    """The friction conditions at one state: what sticks, what slips, and in which direction.
 
     Attributes
     ----------
-    stick, slip : (ny, nx).
-    normal, turn : (2, ny, nx) direction of the traction where it slips, and across it.
+    stick, slip : (ny, nx) True where the surfaces do.
+    normal, turn : (2, ny, nx) direction of the traction where it slips, and the direction across
+        it.
     creep : (2, ny, nx).
     size : (ny, nx) |z| [MPa].
     excess : (ny, nx) (|z| - mu p)/(mu p stiffness), the creep over the traction bound [1/MPa].
@@ -55,7 +57,7 @@ class Cone:
 
 
 class Friction(Protocol):
-    """The parts of a rolling problem that a Newton step needs."""
+    """The parts of a rolling problem that a Newton step uses."""
 
     @property
     def products(self) -> Convolutions:
@@ -71,11 +73,11 @@ class Friction(Protocol):
 
     @property
     def excesses(self) -> tuple[float, ...]:
-        """Excess creeps that `smoothed` knows, over kappa."""
+        """The excess creeps for which `smoothed` has an inverse, over kappa."""
 
     @property
     def free(self) -> list[int]:
-        """Numbers of the unknown creepages."""
+        """Indices of the unknown creepages."""
 
     def rigid(self, creepages: Array) -> Array:
         """Return the creepage of the rigid rollers."""
@@ -84,7 +86,7 @@ class Friction(Protocol):
         """Return -du/dx under shear tractions."""
 
     def smoothed(self, values: Array, level: int) -> Array:
-        """Return roughly the shear that relieves values, with an excess creep."""
+        """Return approximately the shear that relieves values, with an excess creep."""
 
 
 class NewtonSystem:
@@ -103,26 +105,26 @@ class NewtonSystem:
         self.columns = [cone.kept(problem.rigid(np.eye(3)[i])) for i in problem.free]
         self.shape, self.size = cone.creep.shape, cone.creep.size
         count = float(np.sum(cone.stick | cone.slip))
-        # Rows of forces get the size of the other rows.
+        # Rows of prescribed forces are scaled to the size of the other rows.
         self.unit = self.kappa / (self.element * count) if count else 1.0
 
     @cached_property
     def answers(self) -> list[Array]:
-        """Roughly the shear that a unit of each unknown creepage makes."""
+        """Approximate shear due to a unit of each unknown creepage."""
         return [self._smoothed(column) for column in self.columns]
 
     @cached_property
     def corner(self) -> Array:
-        """Roughly the forces that a unit of each unknown creepage makes."""
+        """Approximate forces due to a unit of each unknown creepage."""
         return np.array([self._sums(answer) for answer in self.answers]).T
 
     def step(self, shear: Array, short: Array, tolerance: float) -> tuple[Array, Array]:
-        """Return the change of the shear and of the three creepages.
+        """Return the changes of the shear and of the three creepages.
 
         Parameters
         ----------
-        shear : (2, ny, nx) tractions at hand [MPa].
-        short : what given forces lack [N].
+        shear : (2, ny, nx) present tractions [MPa].
+        short : what is missing from the prescribed forces [N].
         tolerance : of the linear system.
         """
         cone, problem = self.cone, self.problem
@@ -158,10 +160,10 @@ class NewtonSystem:
         return np.concatenate([values.ravel(), turned])
 
     def _smoothed(self, values: Array) -> Array:
-        """Return the preconditioner's answer.
+        """Return the preconditioner times a vector.
 
-        Waves where surfaces stick, waves with about their excess where they slip, the excess alone
-        where it is large.
+        It inverts waves where surfaces stick, waves with approximately their excess where they
+        slip, and the excess alone where it is large.
         """
         kept = self.cone.kept
         out = self.weights[-1] * values / (self.kappa + self.cone.excess)
@@ -178,11 +180,11 @@ class NewtonSystem:
 
 
 def shares_of(values: Array, levels: tuple[float, ...]) -> list[Array]:
-    """Return shares of each level in values, (ny, nx) each; the last one of values beyond.
+    """Return the share of each level in values, (ny, nx) each; the last is of values beyond them.
 
-    The shares of two neighbouring levels make up a value between them, by its logarithm (from the
-    first level, 0, to the second by the value itself); beyond the last level by another factor of
-    the last two levels.
+    The shares of two neighbouring levels interpolate a value between them by its logarithm (between
+    the first level, 0, and the second by the value itself). Beyond the last level they do so up to
+    one more factor of the last two levels.
     """
     last = levels[-1] * levels[-1] / levels[-2]
     ends = np.array([*levels, last])

@@ -1,12 +1,13 @@
-"""Normal contact of viscoelastic bodies: the compliance is not symmetric, and no energy is minimal.
+"""Normal contact of viscoelastic bodies, whose compliance is not symmetric.
 
-    gap = clearance - delta + sum zz p >= 0,   p >= 0,   p gap = 0,
+    gap = clearance - delta + sum zz p >= 0,   p >= 0,   p gap = 0.
 
-zz with a symmetric part that is positive definite: each wave costs work or keeps it. So the
-solution is one alone, but conjugate gradients, which minimise, do not find it. Newton's method
-does, on the nearest point of p - gap/c within p >= 0: in the contact at hand the gap is 0, a linear
-system that GMRES solves with the inverse of each wave's size as preconditioner; then pressures
-below 0 leave the contact and overlaps join it. A given force makes delta an unknown of the system.
+The symmetric part of zz is positive definite, because no wave returns more work than it takes. The
+solution is therefore unique, but it does not minimise an energy, so that conjugate gradients do not
+find it. Newton's method does, on the projection of p - gap/c onto p >= 0. In the present contact
+the gap is 0: a linear system that GMRES solves, preconditioned by the inverse magnitude of each
+wave's compliance. Then points with p < 0 leave the contact, and points that overlap join it. With a
+prescribed force, delta is an unknown of the system.
 """
 
 from __future__ import annotations
@@ -27,21 +28,22 @@ _MOST_STEPS = 60
 _LINEAR = 0.1
 """Share of the tolerance that a linear system may leave."""
 _ROUGH = 0.03
-"""Tolerance of the pressures to start from."""
+"""Tolerance of the initial pressures."""
 
 
 def solve_lossy(
     problem: NormalProblem, tolerance: float, start: Array | None, symbols: Array
 ) -> NormalState:
-    """Solve the contact of viscoelastic bodies on a grid.
+    """Return the contact of viscoelastic bodies on a grid.
 
     Parameters
     ----------
     problem : clearance and compliance; force or approach.
-    tolerance : of the gap in the contact and of overlaps over the depth of the contact, and of
-        pressures below 0 over the peak.
-    start : pressures to start from; None: those under the symmetric part of the compliance.
-    symbols : (py, px//2 + 1) preconditioner: inverse size of the compliance over the wave vector.
+    tolerance : of the gap in the contact and of overlaps, over the depth of the contact, and of
+        negative pressures, over the peak.
+    start : initial pressures; None: those under the symmetric part of the compliance.
+    symbols : (py, px//2 + 1) preconditioner: inverse magnitude of the compliance over the wave
+        vector.
     """
     allowed = np.isfinite(problem.clearance)
     clearance = np.where(allowed, problem.clearance, 0.0)
@@ -72,7 +74,7 @@ def solve_lossy(
 
 
 class _ContactSystem:
-    """The linear system of pressures that close the gap over a given contact.
+    """The linear system for the pressures that close the gap over a given contact.
 
     Attributes
     ----------
@@ -84,14 +86,14 @@ class _ContactSystem:
         self.free = problem.force is not None
         element = problem.products.element
         self.wanted = 0.0 if problem.force is None else problem.force / element
-        # The row of the force gets the size of the other rows.
+        # The row of the force is scaled to the size of the other rows.
         self.unit = problem.products.largest
         self.unit /= float(np.sqrt(np.sum(contact)))
 
     def closed(
         self, pressure: Array, delta: float, clearance: Array, tolerance: float
     ) -> tuple[Array, float]:
-        """Return pressures and approach that close the gap, from those at hand."""
+        """Return the pressures and the approach that close the gap, from present ones."""
         rest = clearance + self.problem.products.normal(pressure) - delta
         depth = depth_of(self.problem, self.contact, max(float(np.max(pressure)), 1e-300))
         right = -(rest * self.contact).ravel()
@@ -105,7 +107,7 @@ class _ContactSystem:
 
     @cached_property
     def answer(self) -> Array:
-        """Roughly the pressure that a unit of approach makes."""
+        """Approximate pressure due to a unit of approach."""
         return self._smoothed(self.contact.astype(float))
 
     def _product(self, vector: Array) -> Array:
@@ -126,7 +128,7 @@ class _ContactSystem:
         return np.append((values + moved * self.answer).ravel(), moved)
 
     def _smoothed(self, values: Array) -> Array:
-        """Return roughly the pressure that makes a displacement, (ny, nx)."""
+        """Return approximately the pressure that causes a displacement, (ny, nx)."""
         (py, half), (ny, nx) = self.symbols.shape, self.contact.shape
         shape = (py, 2 * (half - 1))
         spectrum = self.symbols * rfft2(values * self.contact, shape, workers=1)

@@ -1,4 +1,4 @@
-"""Figures of a solved grid: sizes, forces, and the power lost by delayed displacements."""
+"""Figures of a solution on a grid: sizes, forces, and the power lost in viscoelastic layers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FIGURES = (
     "load_centre",
     "viscous_resistance",
 )
-"""Figures with an error."""
+"""Figures whose error is estimated from the grid."""
 
 
 def figures_of(level: Level) -> dict[str, float]:
@@ -32,7 +32,7 @@ def figures_of(level: Level) -> dict[str, float]:
     x, y = np.meshgrid(grid.x, grid.y)
     creepages = (0.0, 0.0, 0.0) if level.rolling is None else level.rolling.creepages
     element = grid.element
-    arm = x - SHIFT * grid.hx  # seen from a contact a quarter ahead, as `RollingProblem.places`
+    arm = x - SHIFT * grid.hx  # the exact contact lies a quarter ahead: `RollingProblem.places`
     return {
         "load": float(np.sum(pressure)) * element,
         "approach": level.normal.approach,
@@ -53,7 +53,7 @@ def figures_of(level: Level) -> dict[str, float]:
 def _lost_work(level: Level) -> float:
     """Return minus the sum of tractions times the slope of their displacements [MPa].
 
-    Symmetric compliances add nothing to it: elastic bodies give back what they take.
+    Symmetric compliances do not contribute: elastic bodies return the work that they take.
     """
     if level.products.coefficients.is_symmetric:
         return 0.0
@@ -63,14 +63,14 @@ def _lost_work(level: Level) -> float:
 
 
 def slope_of(values: Array, side: float) -> Array:
-    """Return the slope along x of values on a grid, (..., nx); 0 on the rim, beside the contact."""
+    """Return the slope along x of values on a grid, (..., nx); 0 on the rim, out of contact."""
     out = np.zeros_like(values)
     out[..., 1:-1] = (values[..., 2:] - values[..., :-2]) / (2.0 * side)
     return out
 
 
 def _extent(pressure: Array, side: float) -> float:
-    """Return the length over which pressures on equal sides reach [mm]."""
+    """Return the length over which pressures, on rectangles of equal side, extend [mm]."""
     inside = np.flatnonzero(pressure > 0.0)
     if inside.size == 0:
         return 0.0
@@ -80,17 +80,17 @@ def _extent(pressure: Array, side: float) -> float:
 
 
 def _area(pressure: Array, grid: Grid) -> float:
-    """Return the area of the patch, its edges between the rectangles row by row [mm2]."""
+    """Return the area of the patch, with its edges interpolated row by row [mm2]."""
     low, high = _beyond(pressure)
     return float(np.sum(pressure > 0.0) + np.sum(low) + np.sum(high)) * grid.element
 
 
 def _beyond(pressure: Array) -> tuple[Array, Array]:
-    """Return how far each row reaches beyond its end rectangles, in rectangles: low, high end.
+    """Return how far each row extends beyond its end rectangles, in rectangles: low, high end.
 
-    Beside an edge the square of the pressure is a straight line over the distance. It is followed
-    to zero from the last two rectangles, but by no more than one. Where the grid ends with the
-    contact, the face ends.
+    Near an edge the square of the pressure is linear in the distance from it. It is extrapolated to
+    zero from the last two rectangles, by one rectangle at most. Where the contact ends with the
+    grid, the face ends there.
     """
     touched, square = pressure > 0.0, pressure**2
     out = []

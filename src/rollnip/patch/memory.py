@@ -1,18 +1,19 @@
-"""Kernels of viscoelastic rollers: elastic-like ones, at once and delayed along the rolling path.
+"""Kernels of viscoelastic rollers: each is an elastic-like kernel, instantaneous and delayed.
 
-The material moves along -x with the speed V, so that a wave e^{i kx x} is seen at s = -i kx V and
-the compliance depends on kx besides k. With lengths l in a geometric series it is
+The material moves along -x with the speed V, so that it sees a wave e^{i kx x} at s = -i kx V, and
+the compliance depends on kx besides k. With lengths l_n in a geometric series it is
 
     C(k, kx) = A_0(k) + sum_n A_n(k)/(1 - i kx l_n),
 
-A_n real, by least squares over the wave numbers kx that a grid holds. In space each A_n is a kernel
-as that of an elastic body, a function of the distance, and 1/(1 - i kx l) is the mean of what stood
-upstream:
+A_n real, by least squares over the wave numbers kx that a grid can hold. In space each A_n is a
+kernel like that of an elastic body, a function of the distance, and 1/(1 - i kx l) is a weighted
+mean over what lies upstream:
 
     v(x) = int_0^inf u(x + s) e^{-s/l} ds/l.
 
-So the displacement is free of images, as that of elastic bodies is. As a matrix over n, the A_n are
-the product of a few kernels with their shares (one kernel where all layers are of one material).
+The displacement is therefore free of images, as that of elastic bodies is. As a matrix over n, the
+A_n are products of a few kernels with their shares (one kernel where all layers are of one
+material).
 """
 
 from __future__ import annotations
@@ -48,32 +49,36 @@ from rollnip.rollers import Roller
 Stack = tuple[Array, ComplexArray, Array, ComplexArray | None, float]
 
 _RATIO = 1.6
-"""Of one delay to the next: a delay between two of them is met to e^(-pi^2/(2 ln 1.6)) = 3e-5."""
+"""Ratio of successive delays: a delay between two of them is approximated to e^(-pi^2/(2 ln 1.6)) =
+3e-5.
+"""
 _COARSE, _FINE = 0.02, 10.0
-"""Wave numbers that count: over 1/length of the grid, and over 1/side of a rectangle."""
+"""Range of wave numbers: over 1/length of the grid, and over 1/side of a rectangle."""
 _BEYOND = 2
-"""Delays beyond the range of these wave numbers at both ends."""
+"""Number of delays beyond the range of these wave numbers, at each end."""
 _PER_DELAY = 2
-"""Wave numbers from one delay to the next at which the compliance is sampled."""
+"""Number of sampled wave numbers per delay."""
 _ALIKE = 1e-7
-"""Kernels that add less than this share to the compliance are left out."""
+"""Share of the compliance below which a kernel is left out."""
 _FAR = 8.0
-"""Thicknesses beyond the grid up to which layers on a rigid core are felt."""
+"""Thicknesses beyond the grid up to which the effect of layers on a rigid core is tabulated."""
 _SEEN = 40.0
-"""Delays after which nothing is left, e^-40."""
+"""Delay lengths after which nothing is left, e^-40."""
 _POINTS = 6
-"""Gauss points between one distance upstream of the grid and twice that."""
+"""Number of Gauss points between one distance upstream of the grid and twice that distance."""
 _LONG = 1e-4
-"""Shortest wave number over the thickness in all."""
+"""Smallest wave number times the total thickness."""
 _PER_E_FOLD = 25.0
-"""Wave numbers in one e-fold at which layers are computed; a cubic spline in between."""
+"""Number of wave numbers in a factor e at which layers are computed, with a cubic spline in
+between.
+"""
 _AT_ONCE = 200_000
-"""Wave vectors whose compliance is computed at once."""
+"""Number of wave vectors whose compliance is computed at once."""
 
 
 @dataclass(frozen=True, slots=True)
 class Upstream:
-    """Places upstream of a grid that delays reach.
+    """Places upstream of a grid from which delayed displacements arrive.
 
     Attributes
     ----------
@@ -86,7 +91,7 @@ class Upstream:
 
     @classmethod
     def of(cls, grid: Grid, longest: float) -> Upstream:
-        """Return the places for delays up to the longest [mm]."""
+        """Return the places for delay lengths up to the longest [mm]."""
         panels = int(np.ceil(np.log2(_SEEN * longest / grid.hx))) + 1
         edges = grid.hx * np.concatenate([[0.0], 2.0 ** np.arange(panels)])
         points, weights = np.polynomial.legendre.leggauss(_POINTS)
@@ -94,18 +99,18 @@ class Upstream:
         return cls((edges[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel())
 
     def means(self, length: float) -> Array:
-        """Return the weights of a mean over e^{-s/l}, (m,)."""
+        """Return the weights of a mean with the weight e^{-s/l}, (m,)."""
         return np.asarray(self.weights * np.exp(-self.places / length) / length)
 
 
 @dataclass(frozen=True)
 class Delays:
-    """A share of a kernel that acts at once, and shares that act delayed.
+    """The share of a kernel that acts at once, and the shares that act with delays.
 
     Attributes
     ----------
-    at_once : the share of A_0.
-    shares, lengths : (n,) shares of A_n, and l_n [mm].
+    at_once : the share in A_0.
+    shares, lengths : (n,) shares in A_n, and l_n [mm].
     """
 
     at_once: float
@@ -113,15 +118,15 @@ class Delays:
     lengths: Array
 
     def applied(self, values: Array, side: float, upstream: Upstream, beyond: Array) -> Array:
-        """Return values on a grid at once and delayed, (..., n).
+        """Return values on a grid with the shares at once and delayed, (..., n).
 
         Parameters
         ----------
-        values : (..., n) over x in steps of ``side`` [mm]; straight lines in between.
+        values : (..., n) over x in steps of ``side`` [mm], linear in between.
         upstream : distances beyond the last place, (m,) [mm].
         beyond : the values there, (..., m).
         """
-        # loads some eighty modules, which only a patch with memory needs
+        # imported here because it loads some eighty modules, which only viscoelastic patches need
         from scipy.signal import lfilter
 
         out = self.at_once * values
@@ -142,13 +147,13 @@ class Delays:
 
 @dataclass(frozen=True)
 class DelayedKernel:
-    """One elastic-like kernel of a roller and how it is delayed.
+    """One elastic-like kernel of a roller, and its delays.
 
     Attributes
     ----------
     kernel : of the surface.
-    far : the half-space that it is beyond the reach of its table; 0 over a rigid core.
-    delays : shares.
+    far : the half-space that it equals beyond the reach of its table; 0 over a rigid core.
+    delays : its shares.
     """
 
     kernel: PairKernel
@@ -156,7 +161,7 @@ class DelayedKernel:
     delays: Delays
 
     def values(self, grid: Grid) -> Array:
-        """Return coefficients xx, xy, yy, zz, xz, yz on a grid, (6, ny + 1, 2 nx + 1)."""
+        """Return the coefficients xx, xy, yy, zz, xz, yz on a grid, (6, ny + 1, 2 nx + 1)."""
         here = both_sides(quadrant(self.kernel, grid))
         upstream = Upstream.of(grid, float(self.delays.lengths[-1]))
         x = grid.nx * grid.hx + upstream.places[None, :]
@@ -186,12 +191,12 @@ class DelayedKernel:
 
 @dataclass(frozen=True)
 class Scales:
-    """Lengths that kernels must resolve, rounded so that grids alike share them.
+    """Lengths that kernels must resolve, rounded so that similar grids share them.
 
     Attributes
     ----------
     reach : largest distance [mm].
-    low, high : wave numbers kx that count, from and to [1/mm].
+    low, high : smallest and largest wave number kx [1/mm].
     """
 
     reach: float
@@ -200,7 +205,7 @@ class Scales:
 
     @classmethod
     def of(cls, grid: Grid, thickness: float) -> Scales:
-        """Return the scales of a grid, for layers of some thickness in all [mm]."""
+        """Return the scales of a grid, for layers of a given total thickness [mm]."""
         return cls(
             reach=_rounded(grid.reach + _FAR * thickness, 2.0),
             low=1.0 / _rounded(grid.nx * grid.hx / _COARSE, 4.0),
@@ -209,7 +214,7 @@ class Scales:
 
 
 def _rounded(value: float, base: float) -> float:
-    """Return the next power of a base."""
+    """Return the next power of a base at or above a value."""
     return float(base ** np.ceil(np.log(value) / np.log(base)))
 
 
@@ -220,7 +225,7 @@ def moving_coefficients(kernels: Sequence[DelayedKernel], grid: Grid, alike: boo
     ----------
     kernels : of both bodies.
     grid : rectangles.
-    alike : whether they are of the same layers and core: then pressure does not shear them.
+    alike : whether both have the same layers and core; pressure then does not shear them.
     """
     values = np.zeros((6, grid.ny + 1, 2 * grid.nx + 1))
     for one in kernels:
@@ -241,8 +246,8 @@ def delayed_kernels(
     roller : with layers or a half-space core.
     scales : what they must resolve.
     speed : V [mm/s].
-    sign : of the displacement along the surface under pressure, 1 for the upper roller, -1 for the
-        lower.
+    sign : sign of the displacement along the surface under pressure: 1 for the upper roller, -1 for
+        the lower one.
     """
     lengths, kx = _delays(scales)
     k = _sampled_waves(roller)
@@ -267,7 +272,7 @@ def delayed_kernels(
 
 
 def _tables(roller: Roller, k: Array, rests: Array, reach: float) -> list[RadialTable]:
-    """Return what layers add to each kernel over the distance; none without layers."""
+    """Return what layers add to each kernel, over the distance; an empty list without layers."""
     if not roller.layers:
         return []
     thinnest = min(layer.thickness for layer in roller.layers)
@@ -280,12 +285,12 @@ def _tables(roller: Roller, k: Array, rests: Array, reach: float) -> list[Radial
 
 
 def waves_at(roller: Roller, k: Array, kx: Array, speed: float) -> ComplexArray:
-    """Return S, T, Z and X of a rolling body for some wave vectors, (4, n) [mm/MPa].
+    """Return S, T, Z and X of a rolling body for given wave vectors, (4, n) [mm/MPa].
 
     Parameters
     ----------
-    roller : that deforms.
-    k, kx : (n,) length of the wave vector and its part along x [1/mm].
+    roller : with layers or a half-space core.
+    k, kx : (n,) length of the wave vector, and its component along x [1/mm].
     speed : V [mm/s].
     """
     out = np.empty((4, k.size), dtype=complex)
@@ -299,7 +304,7 @@ def waves_at(roller: Roller, k: Array, kx: Array, speed: float) -> ComplexArray:
 
 
 def roller_stack(roller: Roller, kx: Array, speed: float) -> Stack:
-    """Return what `rollnip.compliance` wants to know of a rolling body, at wave numbers kx, (n,).
+    """Return a rolling body as the arguments of `rollnip.compliance`, at wave numbers kx, (n,).
 
     Thicknesses, moduli (layers, n), Poisson ratios, and the core's modulus (n,) and Poisson ratio.
     """
@@ -322,7 +327,7 @@ def _delays(scales: Scales) -> tuple[Array, Array]:
 
 
 def _sampled_waves(roller: Roller) -> Array:
-    """Return wave numbers at which layers are computed, (n,) [1/mm]; none without layers."""
+    """Return the wave numbers at which layers are computed, (n,) [1/mm]; empty without layers."""
     if not roller.layers:
         return np.zeros(0)
     first = _LONG / roller.coating_thickness
@@ -351,7 +356,7 @@ def _sampled(roller: Roller, k: Array, kx: Array, speed: float) -> ComplexArray:
 
 
 def _parted(sampled: ComplexArray, kx: Array, lengths: Array) -> tuple[Array, Array]:
-    """Return shares, (1 + n, m), and m functions whose products are A_0 ... A_n at every place.
+    """Return shares, (1 + n, m), and m functions, whose products are A_0 ... A_n at every place.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""Normal contact of elastic bodies on a grid: conjugate gradients that keep p >= 0.
+"""Normal contact of elastic bodies on a grid: conjugate gradients under the constraint p >= 0.
 
     gap = clearance - delta + sum zz p >= 0,   p >= 0,   p gap = 0,
 
-with the force or delta given (Polonsky & Keer 1999, Wear 231, 206-219; Vollebregt 2014, J. Optim.
-Theory Appl. 162, 931-953).
+with either the force or delta given (Polonsky & Keer 1999, Wear 231, 206-219; Vollebregt 2014, J.
+Optim. Theory Appl. 162, 931-953).
 """
 
 from __future__ import annotations
@@ -39,20 +39,20 @@ class Products(Protocol):
 
     @property
     def largest(self) -> float:
-        """Largest displacement of a rectangle under a unit pressure over one [mm/MPa]."""
+        """Largest displacement of a rectangle under a unit pressure on it [mm/MPa]."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class NormalProblem:
-    """Frictionless contact on a grid, or the normal part of one with friction.
+    """Frictionless contact on a grid, or the normal part of a contact with friction.
 
     Attributes
     ----------
     products : displacements under tractions.
-    clearance : (ny, nx) gap of the undeformed surfaces, less what shear closes [mm]; inf where
-        a surface has ended.
-    force, approach : the one that is given, the other None [N], [mm].
+    clearance : (ny, nx) gap of the undeformed surfaces, less what shear closes [mm]; inf beyond the
+        end of a face.
+    force, approach : one is given [N], [mm]; the other is None.
     """
 
     products: Products
@@ -74,8 +74,8 @@ class NormalState:
     pressure : (ny, nx) [MPa].
     approach : delta [mm].
     gap : (ny, nx) [mm].
-    steps : of conjugate gradients.
-    change : largest last change of the pressure over its peak.
+    steps : number of steps of conjugate gradients.
+    change : largest change of the pressure in the last step, over its peak.
     settled : whether the iteration met its tolerance.
     """
 
@@ -88,14 +88,14 @@ class NormalState:
 
 
 def solve_symmetric(problem: NormalProblem, tolerance: float, start: Array | None) -> NormalState:
-    """Solve the contact of elastic bodies on a grid.
+    """Return the contact of elastic bodies on a grid.
 
     Parameters
     ----------
     problem : clearance and compliance; force or approach.
-    tolerance : of the gap in the contact over the depth of the contact, and of the last change of
-        the pressure over its peak.
-    start : pressures to start from, positive where contact is likely; None: where the clearance is
+    tolerance : of the gap in the contact, over the depth of the contact, and of the last change of
+        the pressure, over its peak.
+    start : initial pressures, positive where contact is likely; None: where the clearance is
         smaller than elsewhere.
     """
     allowed = np.isfinite(problem.clearance)
@@ -135,7 +135,7 @@ def solve_symmetric(problem: NormalProblem, tolerance: float, start: Array | Non
 
 
 def _start(problem: NormalProblem, start: Array | None) -> Array:
-    """Return pressures to start from, of the given force."""
+    """Return initial pressures, which add up to the force if that is given."""
     pressure = start
     if pressure is None or not np.any(pressure > 0.0):
         finite = problem.clearance[np.isfinite(problem.clearance)]
@@ -152,7 +152,7 @@ def _start(problem: NormalProblem, start: Array | None) -> Array:
 
 
 def _shift(problem: NormalProblem, gap: Array, contact: Mask) -> float:
-    """Return the approach: the one given, or the one that closes the gap in the mean."""
+    """Return the approach: the given one, or the one that makes the mean gap in contact zero."""
     if problem.approach is not None:
         return problem.approach
     return float(np.mean(gap[contact]))
@@ -161,16 +161,16 @@ def _shift(problem: NormalProblem, gap: Array, contact: Mask) -> float:
 def _closed(
     rest: Array, contact: Mask, allowed: Mask, problem: NormalProblem, pressure: Array
 ) -> float:
-    """Return the largest violation of the conditions over the displacement under the pressure."""
+    """Return the largest violation of the contact conditions, over the depth of the contact."""
     wrong = np.where(contact, np.abs(rest), np.where(allowed, -rest, 0.0))
     return float(np.max(wrong)) / depth_of(problem, contact, float(np.max(pressure)))
 
 
 def depth_of(problem: NormalProblem, contact: Mask, peak: float) -> float:
-    """Return the depth of a contact that violations of its conditions are compared with [mm].
+    """Return the depth of a contact, with which violations of its conditions are compared [mm].
 
-    The displacement of one rectangle under the peak pressure [MPa], or what the clearance changes
-    over the contact if that is more.
+    It is the displacement of one rectangle under the peak pressure [MPa], or the variation of the
+    clearance over the contact if that is larger.
     """
     depth = problem.products.largest * peak
     depth = max(depth, float(np.ptp(problem.clearance[contact])) if np.any(contact) else 0.0)

@@ -1,12 +1,12 @@
-"""The preconditioners: the compliance inverted wave vector by wave vector.
+"""Preconditioners: the compliance, inverted separately for each wave vector.
 
 -du/dx multiplies a wave by (1 - e^(i kx hx))/hx times the 2x2 compliance. The preconditioner of
-rolling divides by the size of the first, kept from zero by the length of the contact, and by that
-of the second; where surfaces slip, the creep over the traction bound is added to that size first
-(`rollnip.patch.rolling`). What is left of the product is a number on the half circle from -i
-through 1 to i: GMRES takes the same number of steps on every grid, but for what the edge of the
-contact adds. The loss of viscoelastic bodies turns it towards 1. That of pressure divides by the
-size of C_zz.
+rolling divides by the magnitude of the first factor, which the length of the contact keeps away
+from zero, and by that of the second. Where surfaces slip, the creep over the traction bound is
+first added to that magnitude (`rollnip.patch.rolling`). What is left of the product is a number on
+the half circle from -i through 1 to i. GMRES therefore takes the same number of steps on every
+grid, except for what the edge of the contact adds. The loss of viscoelastic bodies moves that
+number towards 1. The preconditioner of pressure divides by the magnitude of C_zz.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Symbols:
-    """Factors of waves on a grid a quarter longer.
+    """Factors by which the preconditioners multiply waves, on a grid a quarter longer.
 
     Attributes
     ----------
-    rolling : (3, py, px//2 + 1) size of -du/dx per shear over the wave vector: xx, xy and yy
-        [1/MPa].
-    normal : (py, px//2 + 1) inverse of the size of C_zz [MPa/mm].
+    rolling : (3, py, px//2 + 1) magnitude of -du/dx per unit shear over the wave vector: xx, xy and
+        yy [1/MPa].
+    normal : (py, px//2 + 1) inverse magnitude of C_zz [MPa/mm].
     """
 
     rolling: Array
@@ -48,7 +48,7 @@ def symbols(rollers: tuple[Roller, Roller], grid: Grid, contact: Mask, speed: fl
     rollers : upper and lower.
     grid : of the contact.
     contact : (ny, nx).
-    speed : V [mm/s]; it counts for viscoelastic bodies.
+    speed : V [mm/s]; used for viscoelastic bodies.
     """
     length = max(int(np.max(np.sum(contact, axis=1))), 1) * grid.hx
     width = max(int(np.max(np.sum(contact, axis=0))), 1) * grid.hy

@@ -1,4 +1,4 @@
-"""A solved patch as a tree for JSON, and as lines for a terminal."""
+"""A solved patch as a tree for JSON, and as lines of text for a terminal."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
     Parameters
     ----------
     solution : what `solve_patch` returned.
-    fields : whether the fields over the grid are part of it, as lists of rows along x.
+    fields : whether to include the fields over the grid, as lists of rows along x.
 
     Returns
     -------
-    A tree of numbers, texts and None. Units mm, N, MPa, s. ``case`` is what was solved, as the tree
-    of a case file in base units, which gives the same result when solved again.
+    A tree of numbers, texts and None, in mm, N, MPa and s. ``case`` is what was solved, as the tree
+    of a case file in base units; solving it again gives the same result.
     """
     grid = solution.grid
     figures: dict[str, Any] = {key: one.value(solution) for key, one in PATCH_FIGURES.items()}
@@ -58,7 +58,7 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
 
 
 def origin_of(solution: PatchSolution) -> dict[str, Any]:
-    """Return what was solved and with which rollnip: tolerance, version, case and its hash."""
+    """Return what was solved, and by which rollnip: tolerance, version, case and its hash."""
     problem = (solution.patch, solution.tolerance, solution.prescribed)
     return {
         "tolerance": solution.tolerance,
@@ -87,7 +87,7 @@ def patch_lines(solution: PatchSolution, units: Units = "metric") -> Iterator[st
 
 
 def _shown(figure: Any, solution: PatchSolution) -> str:
-    """Return a figure in the unit shown with its error; 0 where the error is larger."""
+    """Return a figure with its error in the unit shown, or 0 where the error is larger than it."""
     value, error = figure.value(solution), figure.error(solution)
     unit = f" {figure.shown_unit}" if figure.shown_unit else ""
     if error is None:
@@ -97,7 +97,7 @@ def _shown(figure: Any, solution: PatchSolution) -> str:
 
 
 def stress_rows(field: PatchStress) -> list[dict[str, float]]:
-    """Return the largest stresses at each depth, and where in the plane von Mises' is largest."""
+    """Return the largest stresses at each depth, and the place of the largest von Mises stress."""
     rows = []
     for i, z in enumerate(field.z):
         worst = field.von_mises[i]
@@ -131,7 +131,7 @@ def stress_lines(title: str, side: str, rows: list[dict[str, float]]) -> Iterato
 
 
 def end_dict(end: FaceEnd) -> dict[str, Any]:
-    """Return the end of a face as plain values: lists over the distance from it."""
+    """Return the end of a face as plain values, with lists over the distance from it."""
     return {
         "line_load": end.line_load,
         "added_length": end.added_length,
@@ -153,7 +153,7 @@ def end_lines(end: FaceEnd) -> Iterator[str]:
 
 
 _ENDS = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0)
-"""Places of the summary over the longest distance."""
+"""Places in the summary, over the longest distance."""
 
 
 def _rows(field: Array) -> list[list[float | None]]:

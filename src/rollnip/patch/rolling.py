@@ -1,18 +1,19 @@
-"""Steady rolling with friction on a grid: a semismooth Newton method with Krylov steps.
+"""Steady rolling with friction on a grid, by a semismooth Newton method with GMRES.
 
-With the displacement u of the upper surface against the lower one, and the creepage of the rigid
-rollers w = (along - spin y, across + spin x), the surfaces creep by
+With the displacement u of the upper surface relative to the lower one, and the creepage of the
+rigid rollers w = (along - spin y, across + spin x), the surfaces creep by
 
     c = w + du/dx,   slip velocity = -V c,
     |q| <= mu p,   c = 0 where |q| < mu p,   q = mu p c/|c| where c is not 0.
 
 du/dx is the difference to the next rectangle upstream, as in Kalker's steady state (Kalker 1990,
-*Three-Dimensional Elastic Bodies in Rolling Contact*, section 4.3): on the first rectangle upstream
+*Three-Dimensional Elastic Bodies in Rolling Contact*, section 4.3). Upstream of the first rectangle
 is the surface before the contact, so that the traction starts from zero.
 
-The conditions are q = the nearest point to z = q + c/kappa within the circle of radius mu p.
-Newton's method takes rectangles with |z| < mu p as sticking; in the others q has the size mu p and
-turns (`rollnip.patch.linear`). Prescribed forces make the creepages unknowns of the same system.
+The conditions are equivalent to q being the projection of z = q + c/kappa onto the circle of radius
+mu p. Newton's method treats rectangles with |z| < mu p as sticking; in the others q has the
+magnitude mu p, and its direction changes (`rollnip.patch.linear`). Prescribed forces make the
+creepages unknowns of the same system.
 """
 
 from __future__ import annotations
@@ -31,19 +32,23 @@ from rollnip.patch.linear import Cone, NewtonSystem
 Mask = NDArray[np.bool_]
 
 EXCESSES = (0.0, 0.03, 0.2, 1.2)
-"""Creeps over the traction bound, over kappa, with which the preconditioner inverts waves. Larger
-ones count alone."""
+"""Values of creep over traction bound, over kappa, with which the preconditioner inverts waves.
+Larger ones alone determine the inverse.
+"""
 SHIFT = 0.25
-"""How far ahead the exact contact lies that a row of rectangles answers as, in rectangles."""
+"""Distance, in rectangles, by which the exact contact with the same response lies ahead of a row.
+"""
 _MOST_STEPS = 40
 _FARTHEST = 2.0
-"""Most that a step changes a creepage, in creeps at which the whole contact would slip: where
-little sticks, the force hardly says how fast the rest slips."""
+"""Largest change of a creepage in one step, over the creep at which the whole contact would slip.
+Where little sticks, the force hardly determines how fast the rest slips.
+"""
 _LINEAR = 0.2
-"""Share of the residual that a linear system may leave at first; later the square of Newton's."""
+"""Share of the residual that a linear system may leave in the first step; later the square of the
+ratio of successive residuals."""
 _LEAST_LINEAR = 1e-6
 _LEAST_SHARE = 1e-3
-"""Residuals are relative to the tractions at hand, but to no less than this of the bound."""
+"""Residuals are relative to the present tractions, or to this share of the bound if larger."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +59,12 @@ class RollingProblem:
     ----------
     products : displacements under tractions.
     bound : (ny, nx) mu p [MPa], positive in the contact, 0 outside.
-    pressure : (ny, nx) [MPa]; it shears unlike surfaces against each other.
-    creepages : along, across [1] and spin [1/mm]: given, or where to start.
-    forces : along and across [N], each None where the creepage is given.
-    symbols : (3, py, px) for the preconditioner: size of -du/dx per shear over the wave vector, xx,
-        xy and yy [1/MPa].
-    stiffness : 1/kappa [MPa], shear per creep of the softest wave.
+    pressure : (ny, nx) [MPa]; it displaces unlike surfaces tangentially against each other.
+    creepages : along, across [1] and spin [1/mm], given or initial.
+    forces : along and across [N]; None where the creepage is given.
+    symbols : (3, py, px) for the preconditioner: magnitude of -du/dx per unit shear over the wave
+        vector, xx, xy and yy [1/MPa].
+    stiffness : 1/kappa [MPa], shear per unit creep of the softest wave.
     """
 
     products: Convolutions
@@ -72,12 +77,12 @@ class RollingProblem:
 
     @cached_property
     def contact(self) -> Mask:
-        """True in the contact."""
+        """Where the surfaces touch, (ny, nx)."""
         return np.asarray(self.bound > 0.0)
 
     @cached_property
     def carried(self) -> Array:
-        """-du/dx that the pressure alone makes, (2, ny, nx)."""
+        """-du/dx due to the pressure alone, (2, ny, nx)."""
         products = self.products
         out = np.zeros((2, *self.bound.shape))
         if products.couples:
@@ -88,14 +93,15 @@ class RollingProblem:
 
     @cached_property
     def places(self) -> tuple[Array, Array]:
-        """Places where the rigid creepage counts, (ny, nx) [mm].
+        """Places at which the rigid creepage is evaluated, (ny, nx) [mm].
 
-        The difference upstream stands half a rectangle ahead of the traction. Where a traction
-        rises from zero at one end and without bound at the other, such a row answers as the exact
-        one whose contact lies a quarter ahead, as rows of vortices do (James 1972, Comput. Methods
-        Appl. Mech. Eng. 1, 59-79, is cited for these; a strip of a half-plane in closed form
-        confirms it to second order for ours): seen from there the difference stands a quarter
-        ahead of the middle of the rectangle, and the traction a quarter behind it.
+        The upstream difference belongs to a place half a rectangle ahead of the traction. Where a
+        traction rises from zero at one end and is singular at the other, a row of rectangles
+        responds like the exact contact that lies a quarter of a rectangle ahead, as rows of
+        vortices do (James 1972, Comput. Methods Appl. Mech. Eng. 1, 59-79, is cited for these; for
+        the present rows, the closed form of a strip on a half-plane confirms it to second order).
+        Seen from that contact the difference is a quarter ahead of the middle of the rectangle, and
+        the traction a quarter behind it.
         """
         grid = self.products.grid
         x, y = np.meshgrid(grid.x + SHIFT * grid.hx, grid.y)
@@ -118,7 +124,7 @@ class RollingProblem:
 
     @cached_property
     def inverses(self) -> list[Array]:
-        """Inverses of the symbols with each of `EXCESSES` added, (3, py, px) each [MPa]."""
+        """Inverses of the symbols plus each of `EXCESSES`, (3, py, px) each [MPa]."""
         xx, xy, yy = self.symbols
         out = []
         for share in EXCESSES:
@@ -128,12 +134,12 @@ class RollingProblem:
         return out
 
     def smoothed(self, values: Array, level: int) -> Array:
-        """Return roughly the shear that relieves -du/dx + excess shear = ``values``, (2, ny, nx).
+        """Return approximately the shear for which -du/dx + excess * shear = ``values``.
 
         Parameters
         ----------
         values : (2, ny, nx).
-        level : number of the excess among `EXCESSES`.
+        level : index of the excess in `EXCESSES`.
         """
         (py, half), (ny, nx) = self.symbols.shape[1:], self.bound.shape
         px = 2 * (half - 1)
@@ -146,22 +152,22 @@ class RollingProblem:
 
     @property
     def excesses(self) -> tuple[float, ...]:
-        """Excess creeps that `smoothed` knows, over kappa."""
+        """The excess creeps for which `smoothed` has an inverse, over kappa."""
         return EXCESSES
 
     @property
     def free(self) -> list[int]:
-        """Numbers of the creepages that are unknown because a force is given."""
+        """Indices of the creepages that are unknown because a force is given."""
         return [i for i, force in enumerate(self.forces) if force is not None]
 
     def within(self, shear: Array) -> Array:
-        """Return tractions cut to the bound."""
+        """Return tractions scaled down to the bound where they exceed it."""
         size = np.hypot(shear[0], shear[1])
         share = np.where(size > self.bound, self.bound / np.maximum(size, 1e-300), 1.0)
         return np.asarray(shear * share * self.contact)
 
     def cone(self, shear: Array, creep: Array) -> Cone:
-        """Return what sticks and slips, and by how much the conditions are violated."""
+        """Return what sticks and slips, and how far the conditions are violated."""
         tried = shear + self.stiffness * creep
         size = np.hypot(tried[0], tried[1])
         slip = self.contact & (size > self.bound)
@@ -182,13 +188,13 @@ class RollingProblem:
         )
 
     def missing(self, shear: Array) -> Array:
-        """Return what the given forces lack, one for each [N]."""
+        """Return what is missing from the given forces, one value for each [N]."""
         had = np.sum(shear, axis=(1, 2)) * self.products.grid.element
         wanted = [self.forces[i] or 0.0 for i in self.free]
         return np.asarray(np.array(wanted) - had[self.free])
 
     def share(self, short: Array) -> float:
-        """Return missing forces as a share of those given, or of some of what can be carried."""
+        """Return missing forces relative to the given ones, or to a share of the friction limit."""
         limit = float(np.sum(self.bound)) * self.products.grid.element
         given = max(abs(force or 0.0) for force in self.forces)
         return float(np.max(np.abs(short), initial=0.0)) / max(given, _LEAST_SHARE * limit)
@@ -204,9 +210,9 @@ class RollingState:
     creep : (2, ny, nx) c, minus the slip velocity over V.
     slip : (ny, nx) True where the surfaces slip.
     creepages : along, across and spin.
-    steps, products : Newton steps, and products with the compliance.
+    steps, products : numbers of Newton steps and of products with the compliance.
     residual : largest violation of the conditions over the largest traction.
-    settled : whether that met the tolerance.
+    settled : whether the residual met the tolerance.
     """
 
     shear: Array
@@ -220,13 +226,13 @@ class RollingState:
 
 
 def solve_rolling(problem: RollingProblem, tolerance: float, start: Array | None) -> RollingState:
-    """Solve for shear tractions and, where forces are given, creepages.
+    """Return the shear tractions and, where forces are given, the creepages.
 
     Parameters
     ----------
     problem : traction bound, creepages or forces.
-    tolerance : of the violation of the conditions over the largest traction.
-    start : shear to start from; None: none.
+    tolerance : of the largest violation of the conditions over the largest traction.
+    start : initial shear; None: zero.
     """
     shear = np.zeros((2, *problem.bound.shape))
     if start is not None:

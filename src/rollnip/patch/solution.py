@@ -25,8 +25,8 @@ from rollnip.validity import energies_left_out
 
 IntArray = NDArray[np.int8]
 
-_LARGE = 0.5  # of a radius: length of a patch
-_DEEP = 0.15  # of the coverings: approach
+_LARGE = 0.5  # length of a patch over a radius, above which there is a reservation
+_DEEP = 0.15  # approach over the thickness of the coverings, above which there is one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -40,12 +40,12 @@ class PatchSolution:
     ----------
     patch : the problem.
     level : the solution on the finest grid.
-    grid_error : of each figure measured on the grid, in its own unit; from the change of the figure
-        from the next coarser grid. For what has a sign (tractions, moment, creepages) it is
-        absolute too.
+    grid_error : error of each figure measured on the grid, in its own unit, from its change from
+        the next coarser grid. It is absolute for figures with a sign (tractions, moment,
+        creepages), too.
     tolerance : relative accuracy that was wanted.
     converged : whether all iterations settled and all errors are within the tolerance.
-    status : one sentence on what was reached.
+    status : a sentence that says so, or what is wrong.
     levels : numbers of rectangles (nx, ny) of all grids, coarsest first.
     prescribed : numbers of rectangles that the caller asked for; None: refined to the tolerance.
     """
@@ -96,14 +96,14 @@ class PatchSolution:
 
     @property
     def gap(self) -> Array:
-        """Gap of the deformed surfaces, (ny, nx) [mm]; inf where a face has ended."""
+        """Gap of the deformed surfaces, (ny, nx) [mm]; inf beyond the end of a face."""
         return sealed(self.level.normal.gap)
 
     @cached_property
     def slip(self) -> Array:
-        """Slip velocity of the upper against the lower surface over V, along x and y, (2, ny, nx).
+        """Slip velocity of the upper surface relative to the lower, over V, (2, ny, nx).
 
-        0 where the surfaces stick and outside the patch.
+        Along x and y; 0 where the surfaces stick, and outside the patch.
         """
         if self.level.rolling is None:
             return sealed(np.zeros((2, *self.pressure.shape)))
@@ -121,19 +121,19 @@ class PatchSolution:
 
     @cached_property
     def state(self) -> IntArray:
-        """State of each rectangle, (ny, nx): 0 apart, 1 stick, 2 slip; without friction 2."""
+        """State of each rectangle, (ny, nx): 0 apart, 1 stick, 2 slip or frictionless contact."""
         contact = self.pressure > 0.0
         slip = contact if self.level.rolling is None else self.level.rolling.slip
         return sealed(np.where(contact, np.where(slip, 2, 1), 0).astype(np.int8))
 
     @cached_property
     def figures(self) -> dict[str, float]:
-        """Load, approach, length, width, area, peak pressure, tractions, moment and creepages."""
+        """The figures measured on the grid, load and approach to viscous resistance, by key."""
         return figures_of(self.level)
 
     @property
     def load(self) -> float:
-        """Force that presses [N]."""
+        """Force that presses the rollers together [N]."""
         return self.figures["load"]
 
     @property
@@ -178,33 +178,34 @@ class PatchSolution:
 
     @property
     def creepage(self) -> float | None:
-        """Creepage along x; None without friction where none is given."""
+        """Creepage along x; None without friction, unless it was prescribed."""
         return self._creepage(0)
 
     @property
     def lateral_creepage(self) -> float | None:
-        """Creepage along y; None without friction where none is given."""
+        """Creepage along y; None without friction, unless it was prescribed."""
         return self._creepage(1)
 
     @property
     def load_centre(self) -> float:
-        """Place of the load's resultant along x from the line of centres [mm]."""
+        """Place of the resultant of the pressure along x, from the line of centres [mm]."""
         return self.figures["load_centre"]
 
     @property
     def viscous_resistance(self) -> float:
-        """Power lost inside viscoelastic layers over the rolling speed [N].
+        """Power lost inside viscoelastic layers, over the rolling speed [N].
 
-        The work of the tractions on the displacements that follow them too late; 0 where elastic.
+        It is the work of the tractions on the displacements that lag behind them; 0 for elastic
+        layers.
         """
         return self.figures["viscous_resistance"]
 
     @property
     def rolling_resistance(self) -> float:
-        """All that is lost over the rolling speed [N], from the balance of power.
+        """All power that is lost, over the rolling speed [N], from the balance of power.
 
-        What the rollers are given: F_x along + F_y across + M spin, and the pressure's moment
-        (1/R_upper + 1/R_lower) int p x.
+        It is the power put into the rollers: F_x along + F_y across + M spin, and the moment of the
+        pressure, (1/R_upper + 1/R_lower) int p x.
         """
         figures, patch = self.figures, self.patch
         given = patch.curvature * figures["load"] * figures["load_centre"]
@@ -216,7 +217,7 @@ class PatchSolution:
 
     @property
     def friction_resistance(self) -> float:
-        """Power that slip turns into heat over the rolling speed [N]: what is not lost inside."""
+        """Power lost by slip, over the rolling speed [N]: all that is not lost inside layers."""
         if self.level.rolling is None:
             return 0.0
         return max(self.rolling_resistance - self.viscous_resistance, 0.0)
@@ -235,8 +236,8 @@ class PatchSolution:
     def error(self) -> dict[str, float]:
         """Estimated error of each figure, in its own unit.
 
-        That of the resistances is the difference of all power put in to both losses, each by
-        itself: the viscous resistance and the sum of shear times slip.
+        The error of the resistances is the difference between all power put in and the sum of both
+        losses, each computed by itself: the viscous resistance, and the sum of shear times slip.
         """
         lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
         off = abs(lost + self.viscous_resistance - self.rolling_resistance)
@@ -260,12 +261,12 @@ class PatchSolution:
 
     @property
     def reservations(self) -> tuple[Reservation, ...]:
-        """Effects that the model leaves out and that may count here."""
+        """Effects that the model leaves out and that may matter here."""
         return tuple(_reservations(self))
 
     @property
     def dissipation_friction(self) -> float | None:
-        """Power that slip turns into heat [N mm/s = mW]; None without a speed."""
+        """Power lost by slip [N mm/s = mW]; None without a speed."""
         speed = self.patch.speed
         return None if speed is None else speed * self.friction_resistance
 
@@ -276,7 +277,7 @@ class PatchSolution:
         return None if speed is None else speed * self.viscous_resistance
 
     def stress(self, side: Side, z: Sequence[float]) -> PatchStress:
-        """Return the stresses in one roller at some depths.
+        """Return the stresses in one roller at given depths.
 
         Parameters
         ----------
@@ -287,9 +288,10 @@ class PatchSolution:
 
         Returns
         -------
-        PatchStress on the places of the grid, in the frame of that roller: x and y as above, z into
-        its own body. Under a half-space what is left of images of the patch, at three times the
-        size of the grid and more, adds up to three thousandths of the peak pressure.
+        PatchStress at the middles of the rectangles, in the frame of that roller: x and y as above,
+        z into its own body. Under a half-space the stresses are those of a periodic window. The
+        images of the patch, at three times the size of the grid and more, add up to three
+        thousandths of the peak pressure.
 
         Raises
         ------
@@ -304,7 +306,7 @@ class PatchSolution:
         return stress_at_depth(roller, self.grid, tractions, z, self.patch.speed or 0.0)
 
     def _torque(self, side: Side) -> float | None:
-        """Return R (+-T - int p du_z/dx) of one roller, u_z its own displacement inwards."""
+        """Return R (+-T - int p du_z/dx) of one roller, with u_z its own inward displacement."""
         roller = self.patch.upper if side == "upper" else self.patch.lower
         if roller.curvature == 0.0:
             return None
@@ -313,7 +315,7 @@ class PatchSolution:
 
     @cached_property
     def _leaning(self) -> dict[str, float]:
-        """-int p du_z/dx of each roller [N]; both together are the moment of the pressure."""
+        """-int p du_z/dx of each roller [N]; the sum of both is the moment of the pressure."""
         patch, figures = self.patch, self.figures
         both = patch.curvature * figures["load"] * figures["load_centre"]
         if patch.upper.is_rigid or patch.lower.is_rigid:
@@ -327,7 +329,7 @@ class PatchSolution:
                 for products in (PairTables.of(bare).products(self.grid), self.level.products)
             )
         ]
-        # What differences on the grid leave of the balance is shared.
+        # The imbalance that differences on the grid leave is divided equally between the rollers.
         upper = leans[0] + 0.5 * (both - leans[1])
         return {"upper": upper, "lower": both - upper}
 

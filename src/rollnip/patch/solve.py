@@ -1,4 +1,4 @@
-"""Solve a patch: find the place of the grid, and refine it to the tolerance."""
+"""Solution of a patch: find the place of the grid, and refine it to the tolerance."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from rollnip.patch.tables import PairTables
 from rollnip.patches import PATCH_TOLERANCE, Force, Patch
 
 _SEARCH = 32
-"""Rectangles along each side while the place of the patch is looked for."""
+"""Number of rectangles along each side while the place of the patch is searched for."""
 _FIRST = 32
-"""Rectangles along each side of the first grid on the patch."""
+"""Number of rectangles along each side of the first grid on the patch."""
 _FINEST = 512
 _LARGEST = 1024
-"""Most rectangles along a side that a caller may ask for."""
+"""Largest number of rectangles along a side that a caller may ask for."""
 _MARGIN = 1.06
-_ROUGH = 5e-3  # of the iterations while a place is looked for
+_ROUGH = 5e-3  # tolerance of the iterations while the place of the patch is searched for
 _SEARCHES = 60
 _SAFETY = 1.5
-"""Claimed errors over the change from the coarser grid; with order one the change is the error."""
-_EDGE = 0.25  # of a rectangle: the least error of a length
-_SHARE = 0.02  # of the wanted accuracy that the iterations may leave
+"""Claimed errors over the change from the coarser grid; at first order the change is the error."""
+_EDGE = 0.25  # smallest claimed error of a length, over the side of a rectangle
+_SHARE = 0.02  # tolerance of the iterations over the wanted accuracy
 
 Span = tuple[float, float]
 Box = tuple[Span, Span]
@@ -50,27 +50,28 @@ def solve_patch(
 ) -> PatchSolution:
     """Solve the contact of two rollers in a patch.
 
-    Layers are flat and linearly elastic, the patch small against the radii.
+    Layers are flat and linearly elastic or viscoelastic, and the patch is small compared with the
+    radii.
 
     Parameters
     ----------
     patch :
         the problem.
     tolerance :
-        wanted relative accuracy of the figures, between 1e-4 and 0.1; of tractions relative to
-        friction * load, of the spin moment to that times half the root of the area.
+        wanted relative accuracy of the figures, between 1e-4 and 0.1. For tractions it is relative
+        to friction * load, for the spin moment to that times half the root of the area.
     grid :
         None: refined until the tolerance is met, up to 512 by 512 rectangles; or the numbers of
         rectangles along x and y.
     strict :
-        raise ConvergenceError where the solution is not within the tolerance.
+        whether to raise ConvergenceError where the solution is not within the tolerance.
 
     Raises
     ------
     InvalidInputError
         for a tolerance or grid out of range, or surfaces that do not touch.
     ConvergenceError
-        where ``strict`` and the tolerance was not met.
+        where ``strict`` is True and the tolerance was not met.
     """
     require_instance("patch", patch, Patch)
     if not 1e-4 <= require_positive("tolerance", tolerance) <= 0.1:
@@ -110,7 +111,7 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
 
 
 def _with_rim(patch: Patch, box: Box, sizes: tuple[int, int]) -> Box:
-    """Return a box with a free rectangle on each side of the patch where rectangles are few."""
+    """Return a box with a free rectangle on each side of the patch, for grids of few rectangles."""
     spans = []
     for (low, high), count in zip(box, sizes, strict=True):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
@@ -153,11 +154,11 @@ def _check_grid(grid: tuple[int, int] | None) -> None:
 
 
 def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str, float]:
-    """Return the change of each figure from the coarser grid, and what the iterations left.
+    """Return the errors: the change of each figure from the coarser grid, and those of iterations.
 
-    Edges lie between the rectangles, wherever the grid happens to be: two grids may agree on them
-    by chance, so a length is never claimed to better than a quarter of a rectangle. Forces and
-    moment come from one field of shear: the error of each is that of all together.
+    Edges are located between the rectangles, wherever the grid happens to be. Two grids may agree
+    on them by chance, so that no length is claimed to better than a quarter of a rectangle. Forces
+    and moment come from one field of shear; each is given the error of all of them together.
     """
     fine, coarse = figures_of(level), figures_of(before)
     scales = _scales(patch, level)
@@ -183,13 +184,13 @@ def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str
 
 
 def _scales(patch: Patch, level: Level) -> dict[str, float]:
-    """Return the size that the error of each figure is measured against."""
+    """Return the size relative to which the error of each figure is measured."""
     figures = figures_of(level)
     bound = patch.friction * figures["load"]
     scales = {name: abs(figures[name]) for name in FIGURES}
     scales["traction_x"] = scales["traction_y"] = bound
     scales["spin_moment"] = 0.5 * bound * sqrt(figures["area"])
-    # A creepage is known as well as the traction it makes on a patch that sticks.
+    # A creepage is known as accurately as the traction that it causes on a patch in full stick.
     creep = 0.0
     if level.rolling is not None:
         stiffness = 1.0 / float(np.max(level.products.coefficients.xx)) * level.grid.hx
@@ -199,7 +200,7 @@ def _scales(patch: Patch, level: Level) -> dict[str, float]:
             patch.friction * figures["peak_pressure"] / stiffness,
         )
     scales["creepage"] = scales["lateral_creepage"] = creep
-    # The place of the load is told apart from the middle by a tenth of the half length.
+    # The load centre may be 0; errors are relative to at least a tenth of the half length.
     scales["load_centre"] = max(abs(figures["load_centre"]), 0.05 * figures["length"])
     scales["viscous_resistance"] = max(
         abs(figures["viscous_resistance"]),
@@ -231,7 +232,7 @@ def _status(level: Level, name: str, worst: float, tolerance: float) -> str:
 
 
 def patch_box(patch: Patch, tables: PairTables) -> Box:
-    """Return the rectangle along x and y that the patch fills but for a narrow rim [mm].
+    """Return the rectangle along x and y that the patch fills except for a narrow rim [mm].
 
     Raises InvalidInputError where the surfaces do not touch.
     """
@@ -243,7 +244,7 @@ def patch_box(patch: Patch, tables: PairTables) -> Box:
 
 
 def _found_box(patch: Patch, box: Box, tables: PairTables) -> tuple[Box, Level]:
-    """Return the rectangle that the patch fills but for a narrow rim, looked for from another."""
+    """Return the rectangle that the patch fills except for a narrow rim, from an initial one."""
     level = None
     for _ in range(_SEARCHES):
         level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), _ROUGH, level, tables)
@@ -256,7 +257,7 @@ def _found_box(patch: Patch, box: Box, tables: PairTables) -> tuple[Box, Level]:
 
 
 def _first_box(patch: Patch) -> Box:
-    """Return a rectangle to begin with, from Hertz for the softest material."""
+    """Return an initial rectangle, from Hertz's theory for the softest material."""
     radius = 1.0 / patch.curvature
     rollers = [r for r in (patch.upper, patch.lower) if not r.is_rigid]
     young = min(m.relaxed_modulus for r in rollers for m in r.materials)
@@ -270,12 +271,12 @@ def _first_box(patch: Patch) -> Box:
 
 
 def _held(patch: Patch, span: Span) -> Span:
-    """Return a span along y, cut where a face ends."""
+    """Return a span along y, limited to where both faces exist."""
     return max(span[0], -patch.half_face), min(span[1], patch.half_face)
 
 
 def _fitted(patch: Patch, level: Level, box: Box) -> tuple[Box, bool]:
-    """Return a rectangle that fits the contact better, and whether the last one was close."""
+    """Return a rectangle that fits the contact better, and whether the last one fitted well."""
     contact = level.normal.pressure > 0.0
     if not contact.any():
         raise InvalidInputError("`approach` must be large enough for the surfaces to touch.")

@@ -1,6 +1,6 @@
-"""Compliance of a covering that ends: waves along the nip, finite elements across it.
+"""Compliance of a covering that ends: waves along the nip, finite elements in the cross-section.
 
-Under a pressure p(y) cos(k x) an elastic covering that is the same all along x moves as
+Under a pressure p(y) cos(k x) an elastic covering that is uniform along x moves as
 
     u_x = U(y, z) sin(k x),   u_y = V(y, z) cos(k x),   u_z = W(y, z) cos(k x),
 
@@ -9,9 +9,9 @@ so that each wave number k is a problem in the plane of y and z. Its energy per 
     1/2 int [2 mu (e_xx^2 + e_yy^2 + e_zz^2) + mu (g_yz^2 + g_xy^2 + g_xz^2) + lambda div^2] dy dz,
     e_xx = k U,  g_xy = U_y - k V,  g_xz = U_z - k W,  div = k U + V_y + W_z.
 
-Elements have nine nodes; the volume strain counts by its linear part in each element, which keeps
-them from locking at Poisson's ratio 1/2 (Fortin & Brezzi 1991, Mixed and Hybrid Finite Element
-Methods, VI.3). The end at y = 0 is free of stress, the covering is bonded to a rigid core.
+Elements have nine nodes. Only the linear part of the volume strain in each element enters the
+energy, which avoids locking at Poisson's ratio 1/2 (Fortin & Brezzi 1991, Mixed and Hybrid Finite
+Element Methods, VI.3). The end at y = 0 is stress-free; the covering is bonded to a rigid core.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ Indices = NDArray[np.intp]
 _STIFFEST = 1e8
 """Largest lambda over mu, at Poisson's ratio 1/2."""
 _GROWTH = 1.6
-"""Of an element over the one above it."""
+"""Ratio of the heights of an element and the one above it."""
 _LEAST = 1e-4
-"""Wave number times thickness that stands for 0."""
+"""Smallest wave number times thickness, which stands for 0 in the plane compliance."""
 _FIRST = 0.02
-"""Smallest wave number times thickness that is solved, in place of 0."""
+"""Smallest wave number times thickness that is solved for, in place of 0."""
 _STEP = 0.3
-"""Between wave numbers that are solved, of asinh(k d)."""
+"""Largest step of asinh(k d) between wave numbers that are solved for."""
 
 
 def _quadratics(at: Array) -> tuple[Array, Array]:
@@ -70,9 +70,9 @@ class EndedCovering:
     ----------
     roller : with elastic layers on a rigid core.
     y : (m,) places from 0, the end [mm].
-    spline : over asinh(k d), up to k = top: cosh of it times the compliance, less the plane one
-        times `hat_products`.
-    top : largest wave number that was solved [1/mm].
+    spline : over asinh(k d), up to k = top: its cosh times (the compliance, less the plane one
+        times `hat_products`).
+    top : largest wave number that was solved for [1/mm].
     """
 
     roller: Roller
@@ -84,15 +84,16 @@ class EndedCovering:
     def of(
         cls, roller: Roller, y: Array, least: float, ends: bool, fine: float = 1.0
     ) -> EndedCovering:
-        """Solve a covering at wave numbers up to 1/least.
+        """Return a covering solved at wave numbers up to 1/least.
 
         Parameters
         ----------
         roller : with elastic layers on a rigid core.
-        y : (m,) places from 0, one element between two; the last is a plane of symmetry [mm].
+        y : (m,) places from 0, with one element between two of them; the last is a plane of
+            symmetry [mm].
         least : height of the element at the surface [mm].
-        ends : whether the covering ends at y = 0; else it goes on there as well.
-        fine : the larger, the more elements lie below that at the surface.
+        ends : whether the covering ends at y = 0; otherwise it continues there.
+        fine : a factor by which the elements below the surface are more numerous.
         """
         thickness = roller.coating_thickness
         depths, owner = _depths(roller, least, fine)
@@ -117,9 +118,9 @@ class EndedCovering:
         return cls(roller, y, spline, top)
 
     def compliance(self, k: Array) -> Array:
-        """Return u_z under the hat j of pressure times the hat i, over y, (n, m, m) [mm2/MPa].
+        """Return u_z under the pressure hat j, integrated with the hat i, (n, m, m) [mm2/MPa].
 
-        For wave numbers up to ``top``.
+        It holds for wave numbers up to ``top``.
         """
         place = np.arcsinh(k * self.roller.coating_thickness)
         rest = self.spline(place) / np.cosh(place)[:, None, None]
@@ -127,16 +128,16 @@ class EndedCovering:
         return np.asarray(rest + plane[:, None, None] * hat_products(self.y))
 
     def beyond(self, k: Array) -> Array:
-        """Return factors on the compliance at ``top`` that give it at larger wave numbers, (n,).
+        """Return factors (n,) on the compliance at ``top`` that give it at larger wave numbers.
 
-        Waves as short as that are felt near the surface alone, at an end as anywhere.
+        Such short waves are felt near the surface only, at an end as anywhere else.
         """
         at_top = plane_compliance(self.roller, np.array([self.top]))
         return np.asarray(plane_compliance(self.roller, k) / at_top)
 
 
 def hat_products(y: Array) -> Array:
-    """Return the integrals of products of two hats over places y, (m, m) [mm]."""
+    """Return the integrals of products of two hats on places y, (m, m) [mm]."""
     sizes = np.diff(y)
     whole = np.concatenate([[0.0], sizes]) + np.concatenate([sizes, [0.0]])
     return np.diag(whole / 3.0) + np.diag(sizes / 6.0, 1) + np.diag(sizes / 6.0, -1)
@@ -149,7 +150,7 @@ def plane_compliance(roller: Roller, k: Array) -> Array:
 
 
 def _depths(roller: Roller, least: float, fine: float) -> tuple[Array, Indices]:
-    """Return depths of the ends of elements (rows + 1,), and the layer of each element."""
+    """Return depths of the boundaries of elements (rows + 1,), and the layer of each element."""
     growth = _GROWTH ** (1.0 / fine)
     ends, owner, size = [0.0], [], least
     for layer, (top, bottom) in enumerate(pairwise((0.0, *roller.interfaces))):
@@ -174,10 +175,10 @@ def _lame(roller: Roller) -> tuple[Array, Array]:
 
 
 def _strains(half_y: Array, half_z: Array) -> tuple[Array, Array]:
-    """Return strains by the displacements of the nodes, without k and times k, (elements, 57, 27).
+    """Return the strains per nodal displacement, without k and times k, (elements, 57, 27) each.
 
-    Rows: e_xx, e_yy, e_zz, g_yz, g_xy and g_xz at the nine points of Gauss, then three coefficients
-    of the linear part of the volume strain, whose squares add up to its integral over the area.
+    Rows: e_xx, e_yy, e_zz, g_yz, g_xy and g_xz at the nine Gauss points, then three coefficients of
+    the linear part of the volume strain, whose squares add up to its integral over the area.
     """
     by_y, by_z = _BY_Y / half_y[:, None, None], _BY_Z / half_z[:, None, None]
     value, none = np.broadcast_to(_VALUE, by_y.shape), np.zeros_like(by_y)
@@ -209,9 +210,9 @@ class _CrossSection:
     Parameters
     ----------
     roller : its layers.
-    y : ends of the elements over y [mm].
-    depths, owner : ends of the elements over z [mm], and the layer of each.
-    is_symmetric : whether the first side over y is a plane of symmetry too; else it is free.
+    y : boundaries of the elements over y [mm].
+    depths, owner : boundaries of the elements over z [mm], and the layer of each.
+    is_symmetric : whether the first side over y is a plane of symmetry too; otherwise it is free.
     """
 
     def __init__(
@@ -235,7 +236,7 @@ class _CrossSection:
         self.terms = self._assembled(places.reshape(-1, 27), self._elements(roller, depths, owner))
 
     def _elements(self, roller: Roller, depths: Array, owner: Indices) -> list[Array]:
-        """Return the matrices of the elements at k^0, k^1 and k^2, (elements, 27, 27) each."""
+        """Return the matrices of the elements in k^0, k^1 and k^2, (elements, 27, 27) each."""
         half_y, half_z = (
             one.ravel()
             for one in np.meshgrid(0.5 * self.sizes, 0.5 * np.diff(depths), indexing="ij")
@@ -256,7 +257,7 @@ class _CrossSection:
         ]
 
     def _assembled(self, places: Indices, terms: list[Array]) -> Array:
-        """Return lower bands of the whole matrices, (3, band + 1, unknowns)."""
+        """Return the lower bands of the global matrices, (3, band + 1, unknowns)."""
         row = np.repeat(places[:, :, None], 27, axis=2)
         column = np.repeat(places[:, None, :], 27, axis=1)
         counts = (row >= column) & (column >= 0)
@@ -268,7 +269,7 @@ class _CrossSection:
         return out
 
     def compliance(self, k: float, first: int) -> Array:
-        """Return u_z under hats of pressure times hats at a wave number, from one place on."""
+        """Return u_z under pressure hats times hats at a wave number, from place ``first`` on."""
         matrix = self.terms[0] + k * self.terms[1] + k * k * self.terms[2]
         factor = cholesky_banded(matrix, overwrite_ab=True, lower=True, check_finite=False)
         chosen = np.arange(first, self.sizes.size)

@@ -1,4 +1,4 @@
-"""The kernels of a pair of rollers, kept from grid to grid."""
+"""The kernels of a pair of rollers, kept from one grid to the next."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rollnip.rollers import Roller
 
 
 class PairTables:
-    """Compliance of the layers of two rollers, tabulated once for all grids of about one size.
+    """Compliance of the layers of two rollers, tabulated once for all grids of similar size.
 
     Parameters
     ----------
     upper, lower : the rollers.
-    speed : V [mm/s]; it counts for viscoelastic rollers, and may be None for elastic ones.
+    speed : V [mm/s]; used for viscoelastic rollers, and may be None for elastic ones.
     """
 
     def __init__(self, upper: Roller, lower: Roller, speed: float | None) -> None:
@@ -28,7 +28,7 @@ class PairTables:
 
     @classmethod
     def of(cls, patch: Patch) -> PairTables:
-        """Return the tables of the rollers of a patch, empty at first."""
+        """Return the tables of the rollers of a patch, initially empty."""
         return cls(patch.upper, patch.lower, patch.speed)
 
     def products(self, grid: Grid) -> Convolutions:

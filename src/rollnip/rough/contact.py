@@ -1,4 +1,4 @@
-"""The contact of rough rollers on one grid: from the nip to pressures, with errors and residual."""
+"""The contact of rough rollers on one grid: from the nip to pressures, errors and residual."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from rollnip.rough.sampling import SampledProfiles
 
 Array = NDArray[np.float64]
 
-_SHARE = 0.01  # of the wanted accuracy that the iteration may leave
-_DIRECT = 16  # places at which transforms are checked against sums
-_BETWEEN = 256  # places between nodes at which the contact is checked
+_SHARE = 0.01  # tolerance of the iteration over the wanted accuracy
+_DIRECT = 16  # number of places at which transforms are checked against direct sums
+_BETWEEN = 256  # number of places between nodes at which the contact is checked
 
 
 @dataclass(frozen=True)
@@ -33,15 +33,15 @@ class RoughContact:
     sampling : grid and heights.
     kernels : influence functions of both rollers.
     state : pressures and approach; with a half-space core the approach is relative.
-    gap : (n,) of the deformed surfaces, evaluated at the end [mm].
+    gap : (n,) of the deformed surfaces, computed from the final pressure [mm].
     pressed_in :
-        approach from where the rough rollers first touch, at the nodes [mm]; a constant added to
-        the heights changes the approach, but not this. With a half-space core it is relative.
-    depth : scale of distances, ``pressed_in`` or the gap at the edges, the larger [mm].
-    coarser : figures of the same profile with every second sample; None on too few.
-    residual : largest violation of the contact conditions at the nodes, evaluated at the end,
-        relative.
-    between : the same between the nodes, where nothing was solved.
+        approach from the first touch of the rough rollers, at the nodes [mm]. A constant added to
+        the heights changes the approach but not this. With a half-space core it is relative.
+    depth : scale of distances: ``pressed_in`` or the gap at the edges, whichever is larger [mm].
+    coarser : figures of the same profile with every second sample; None where there are too few.
+    residual : largest relative violation of the contact conditions at the nodes, computed from the
+        final pressure.
+    between : the same between the nodes, where the conditions were not imposed.
     """
 
     sampling: SampledProfiles
@@ -95,7 +95,7 @@ class RoughContact:
 def rough_contact(
     nip: Nip, sampling: SampledProfiles, kernels: PairKernels, tolerance: float
 ) -> RoughContact:
-    """Solve the contact of both rollers with their profiles.
+    """Return the contact of both rollers with their profiles.
 
     Parameters
     ----------
@@ -143,16 +143,16 @@ def rough_contact(
 
 
 def normal_kernel(kernels: PairKernels) -> Kernel:
-    """Influence function of the pressure on the distance of both surfaces."""
+    """Return the influence function of the pressure for the distance of both surfaces."""
     parts = [k.zz for k in (kernels.upper, kernels.lower) if k is not None]
     return parts[0] if len(parts) == 1 else parts[0] + parts[1]
 
 
 def _lift(nip: Nip, kernel: Kernel, sampling: SampledProfiles) -> float:
-    """Constant added to the influence function so that no wave, however long, is stiff.
+    """Return a constant to add to the influence function, so that long waves are not too stiff.
 
-    A half-space sinks by an infinite constant that the kernel leaves out; any other will do, and
-    with this one the function is positive over the whole grid.
+    A half-space is displaced by an infinite constant, which the kernel leaves out; any other
+    constant will do. With this one the function is positive over the whole grid.
     """
     if not nip.has_half_space:
         return 0.0
@@ -196,11 +196,10 @@ def _wrong_sums(
 def _between(
     nip: Nip, sampling: SampledProfiles, state: GridState, kernel: Kernel, lift: float
 ) -> float:
-    """Return the largest violation of the contact conditions between nodes, at some places [mm].
+    """Return the largest violation of the contact conditions at places between nodes [mm].
 
-    The conditions were not imposed there. Between two nodes that touch, the surfaces must lie on
-    each other; at an edge of the contact and outside they must not cross. Displacements are direct
-    sums.
+    The conditions were not imposed there. Between two nodes in contact the gap must be zero; at an
+    edge of the contact and outside it must not be negative. Displacements are direct sums.
     """
     x, pressure = sampling.x, state.pressure
     touching = np.flatnonzero(pressure > 0.0)
@@ -218,7 +217,7 @@ def _between(
 
 
 def _depth(nip: Nip, x: Array, state: GridState, pressed_in: float) -> float:
-    """Return the scale of distances: how far is pressed in, or the gap at the edges [mm]."""
+    """Return the scale of distances: the depth pressed in, or the gap at the edges [mm]."""
     touching = np.flatnonzero(state.pressure > 0.0)
     depth = 0.125 * nip.curvature * float(x[touching[-1]] - x[touching[0]]) ** 2
     return depth if nip.has_half_space else max(depth, pressed_in)
@@ -229,8 +228,8 @@ def _residual(
 ) -> float:
     """Return the largest relative violation of the contact conditions.
 
-    The parts are: penetration, p times gap and wrong sums over ``depth``; the remaining
-    correction of the pressure over its peak; the error of the load.
+    Its parts are: penetration, p times gap, and errors of the sums, all over ``depth``; the
+    remaining correction of the pressure over its peak; the error of the load.
     """
     pressure = state.pressure
     peak, total = float(np.max(pressure)), float(np.sum(pressure)) * problem.spacing

@@ -1,4 +1,4 @@
-"""Fields of the surfaces under the pressure of a rough contact, on its grid and beyond."""
+"""Displacements and strains of the surfaces in a rough contact, on its grid and beyond."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class SurfaceFields:
 
 
 def outside(contact: RoughContact, width: float) -> tuple[Array, Array]:
-    """Places beyond the grid, trailing and leading, to 1.1 nip widths from the contact [mm]."""
+    """Return places beyond the grid on both sides, up to 1.1 nip widths from the contact [mm]."""
     x = contact.x
     first = contact.intervals[0][0] - 1.1 * width
     last = contact.intervals[-1][1] + 1.1 * width
@@ -44,9 +44,9 @@ def outside(contact: RoughContact, width: float) -> tuple[Array, Array]:
 def surface_fields(
     kernels: SurfaceKernels | None, contact: RoughContact, beyond: tuple[Array, Array]
 ) -> SurfaceFields:
-    """Fields of one surface at the places beyond the grid and at its nodes, in order of x.
+    """Return the fields of one surface beyond the grid and at its nodes, in order of x.
 
-    Far from the pressure its details do not count: beyond the grid it is the thinned one.
+    Far from the pressure its details have no effect: beyond the grid a thinned pressure is used.
     """
     trailing, leading = beyond
     count = contact.x.size
@@ -60,7 +60,7 @@ def surface_fields(
         for kernel in (kernels.xz, kernels.zz)
     ]
     away = np.concatenate([trailing, leading])
-    if away.size == 0:  # the profile reaches farther than anything that is asked for
+    if away.size == 0:  # the grid covers all that is wanted
         return SurfaceFields(*on_grid)
     nodes, thin = thinned(contact.x, pressure, 1024)
     off_grid = [
@@ -76,17 +76,17 @@ def surface_fields(
 
 
 def thinned(x: Array, pressure: Array, most: int) -> tuple[Array, Array]:
-    """The pressure on fewer nodes over the contact, zero at both ends.
+    """Return the pressure on fewer nodes over the contact, zero at both ends.
 
     Parameters
     ----------
     x, pressure : (n,) on a uniform grid; zero at its ends.
-    most : nodes, about.
+    most : approximate number of nodes.
 
     Returns
     -------
-    Nodes [mm] and pressures [MPa], both (m,). Hats of the wider spacing share out each nodal
-    load, which leaves the load and its moment as they are.
+    Nodes [mm] and pressures [MPa], both (m,). Each nodal load is divided between hats of the wider
+    spacing, which keeps the load and its moment.
     """
     touching = np.flatnonzero(pressure > 0.0)
     first, last = int(touching[0]), int(touching[-1])

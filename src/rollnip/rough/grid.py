@@ -22,14 +22,14 @@ class Convolution:
 
     Attributes
     ----------
-    coefficients : (2 n - 1,), that of distance 0 in the middle.
+    coefficients : (2 n - 1,), with that of distance 0 in the middle.
     """
 
     coefficients: Array
 
     @property
     def size(self) -> int:
-        """Number of values that it takes and gives, n."""
+        """Number of values of input and output, n."""
         return (self.coefficients.size + 1) // 2
 
     @cached_property
@@ -41,9 +41,9 @@ class Convolution:
     def spectrum(self) -> Array:
         """Transform of the coefficients laid out on the circle, complex.
 
-        No two values are as far apart as the unused distances, so the coefficients there are free.
-        A cubic that joins both ends smoothly keeps the transform of a compliance positive: a jump
-        would hide the small compliance of a stiff skin for short waves.
+        No two values are as far apart as the unused distances, so that the coefficients there are
+        free. A cubic that joins both ends smoothly keeps the transform of a compliance positive; a
+        jump would hide the small compliance of a stiff skin to short waves.
         """
         n = self.size
         circle = np.empty(self.length)
@@ -63,14 +63,14 @@ class Convolution:
         return np.asarray(c[-1] + bend + steps * ends)
 
     def of(self, values: Array) -> Array:
-        """Return the convolution with some values, (n,)."""
+        """Return the convolution with given values, (n,)."""
         transformed = rfft(values, self.length, workers=1) * self.spectrum
         return np.asarray(irfft(transformed, self.length, workers=1)[: self.size])
 
 
 @dataclass(frozen=True)
 class GridProblem:
-    """Frictionless contact on n nodes at equal distances.
+    """Frictionless contact on n equidistant nodes.
 
         gap = clearance - delta + sum_j compliance_(i-j) p_j >= 0,   p >= 0,   p gap = 0
 
@@ -79,7 +79,7 @@ class GridProblem:
     spacing : of the nodes [mm].
     clearance : (n,) gap of the undeformed surfaces [mm].
     compliance : of both surfaces together, symmetric [mm/MPa].
-    load, approach : what is prescribed, the other None [N/mm], [mm].
+    load, approach : one is prescribed, the other is None [N/mm], [mm].
     """
 
     spacing: float
@@ -91,13 +91,14 @@ class GridProblem:
 
 @dataclass(frozen=True, slots=True)
 class GridState:
-    """A solution of a problem on a grid, or the last iterate.
+    """A solution of a problem on a grid, or its last iterate.
 
     Attributes
     ----------
     pressure : (n,) [MPa], linear between the nodes.
     approach : delta [mm].
-    steps : of conjugate gradients, each of one convolution and one preconditioning.
+    steps : number of steps of conjugate gradients, each with one convolution and one
+        preconditioning.
     correction : what the preconditioner would still change in the pressure, relative to its peak.
     settled : whether that is small and the contact set reproduces itself.
     """
@@ -112,11 +113,12 @@ class GridState:
 class InverseWithHoles:
     """An approximate inverse of the compliance among the nodes of a contact set A.
 
-    The compliance among the nodes of A is a block of a circulant matrix C, and by a theorem on
-    inverses of blocks (C_AA)^-1 = min over E of E^T C^-1 E, where E extends values on A to the
-    whole circle in any way that leaves those on A as they are. Extended by zeros, a contact full of
-    small holes costs many times what it should. Here E is linear across each hole, or falls to
-    zero within ``reach`` where the hole is longer: close to the least, and as cheap as a transform.
+    The compliance among the nodes of A is a block of a circulant matrix C. By a theorem on inverses
+    of blocks, (C_AA)^-1 = min over E of E^T C^-1 E, where E extends values on A to the whole circle
+    in any way that leaves those on A unchanged. If E extends by zeros, a contact full of small
+    holes takes many times as many steps as needed. Here E is linear across each hole, or falls to
+    zero within ``reach`` where the hole is longer; this is close to the minimum, and costs no more
+    than a transform.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ class InverseWithHoles:
         self.length = compliance.length
         self.inverse, reach = _inverse_symbol(compliance.spectrum.real)
         self.nodes: Indices = np.flatnonzero(contact)
-        # The circle closes: the last hole ends at the first node, one turn further on.
+        # On the circle the last hole ends at the first node, one turn further on.
         steps = np.diff(self.nodes, append=self.nodes[0] + self.length)
         holes = np.flatnonzero(steps > 1)
         widths = steps[holes] - 1
@@ -164,8 +166,8 @@ class InverseWithHoles:
 def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
     """Return the inverse of a symbol, kept positive, and a quarter of its dominant wavelength.
 
-    An incompressible layer hardly yields to a uniform pressure: its compliance falls to nothing at
-    long waves, where the cut of the convolution may even make it negative.
+    An incompressible layer hardly yields to a uniform pressure: its compliance tends to zero for
+    long waves, where truncating the convolution may even make it negative.
     """
     top = int(np.argmax(symbol))
     rounding = np.finfo(float).eps * symbol[top]
@@ -177,9 +179,9 @@ def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
 def grid_intervals(x: Array, pressure: Array) -> tuple[tuple[float, float], ...]:
     """Return the contact intervals (trailing, leading) of a pressure on a uniform grid [mm].
 
-    At an edge the pressure goes to zero as the square root of the distance: its square is
-    extrapolated from the last two nodes that touch; where it does not fall, or where one node
-    touches alone, the edge is put halfway to the next node.
+    At an edge the pressure vanishes as the square root of the distance: its square is extrapolated
+    from the last two nodes in contact. Where it does not fall, or only one node touches, the edge
+    is put halfway to the next node.
     """
     padded = np.pad(pressure, 2)
     touching = padded > 0.0
@@ -192,7 +194,7 @@ def grid_intervals(x: Array, pressure: Array) -> tuple[tuple[float, float], ...]
 
 
 def _overhang(here: Array, before: Array) -> Array:
-    """Return the distance of an edge from the last node that touches, in spacings."""
+    """Return the distance of an edge from the last node in contact, in spacings."""
     rise = before**2 - here**2
     falls = rise > 0.0
     return np.where(falls, np.minimum(here**2 / np.where(falls, rise, 1.0), 1.0), 0.5)

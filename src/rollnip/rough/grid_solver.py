@@ -1,9 +1,9 @@
 """Solvers of the frictionless contact on a uniform grid: an active set, from coarse to fine.
 
-The pressure minimises p.(C p)/2 + clearance.p under p >= 0 and a given load. On a given contact
-set this is a linear system, solved by preconditioned conjugate gradients; nodes under tension then
-leave the set, and nodes that overlap join it. Where that does not settle, as under a stiff skin
-that touches in a few points, the set is grown from a single node.
+The pressure minimises p.(C p)/2 + clearance.p under p >= 0 and a given load. On a given contact set
+this is a linear system, solved by preconditioned conjugate gradients. Nodes under tension then
+leave the set, and nodes that overlap join it. Where this does not settle, as under a stiff skin
+that touches at a few points, the set is grown from a single node.
 
 References
 ----------
@@ -24,24 +24,24 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from rollnip.contact.problem import Array, Indices, Mask
 from rollnip.rough.grid import Convolution, GridProblem, GridState, InverseWithHoles
 
-# Nodes of the first grid at most; a grid that is not halved has no estimated errors.
+# Largest number of nodes of the first grid; a grid that is not halved has no estimated errors.
 _COARSEST_NODES = 256
-# Nodes in contact of which a dense matrix is made: 18 MB and 1e9 products for each set.
+# Largest number of nodes in contact for a dense matrix: 18 MB and 1e9 products for each set.
 _MOST_DENSE_NODES = 1500
-# Overlap that counts as none where a dense system was solved, of the displacements.
+# Overlap over the displacements that counts as zero where a dense system was solved.
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))
 
 
 @dataclass(frozen=True, slots=True)
 class GridActiveSet:
-    """Solver of frictionless contact on a uniform grid, which starts on grids of half the nodes.
+    """Solver of frictionless contact on a uniform grid, starting from coarser grids.
 
     Parameters
     ----------
     tolerance :
         correction of the pressure at which to stop, relative to its peak.
     most_steps :
-        of conjugate gradients on one grid before the set is grown instead, in as many steps.
+        steps of conjugate gradients on one grid before the set is grown instead, in as many steps.
     """
 
     tolerance: float = 1e-5
@@ -50,17 +50,17 @@ class GridActiveSet:
     def solve(
         self, problem: GridProblem, coarser: Callable[[int], Convolution]
     ) -> tuple[GridState, GridState | None]:
-        """Solve a problem on its grid and on the grid of every second node.
+        """Return the solutions on the grid and on the grid of every second node.
 
         Parameters
         ----------
         problem : on the finest grid.
-        coarser : gives the compliance on a grid with every ``stride``-th node.
+        coarser : function that returns the compliance on a grid with every ``stride``-th node.
 
         Returns
         -------
-        The state, and that on every second node (None where the grid is too coarse to be halved),
-        both to the tolerance: their difference says what the sampling leaves open.
+        The state, and the one on every second node (None where the grid is too coarse to be
+        halved), both to the tolerance. Their difference estimates the error due to sampling.
         """
         strides = [1]
         while problem.clearance[:: strides[-1]].size > _COARSEST_NODES:
@@ -76,7 +76,7 @@ class GridActiveSet:
         return state, before
 
     def on_grid(self, problem: GridProblem, start: Array) -> GridState:
-        """Solve on one grid from a first pressure."""
+        """Return the solution on one grid, from an initial pressure."""
         state = _active_set(problem, start, self.tolerance, self.most_steps)
         if state.settled:
             return state
@@ -94,7 +94,7 @@ def _every(problem: GridProblem, stride: int, compliance: Convolution) -> GridPr
 
 
 def _first(problem: GridProblem) -> Array:
-    """Return a first pressure for the coarsest grid: even, where the approach closes the gap."""
+    """Return an initial pressure for the coarsest grid: even where the approach closes the gap."""
     if problem.approach is None:
         return np.ones(problem.clearance.size)
     return np.where(problem.clearance <= max(problem.approach, problem.clearance.min()), 1.0, 0.0)
@@ -107,7 +107,7 @@ def _between(pressure: Array, problem: GridProblem) -> Array:
 
 
 def _feasible(problem: GridProblem, pressure: Array) -> Array:
-    """Return the pressure without tension, scaled to the load where that is prescribed."""
+    """Return the pressure without tension, scaled to the load if it is prescribed."""
     kept = np.maximum(pressure, 0.0)
     if problem.load is None:
         return kept
@@ -116,12 +116,12 @@ def _feasible(problem: GridProblem, pressure: Array) -> Array:
 
 
 def _depth(problem: GridProblem, contact: Mask, gap: Array) -> float:
-    """Return the approach: prescribed, or where the surfaces in contact meet on average."""
+    """Return the approach: the prescribed one, or the one of zero mean gap in the contact."""
     return float(gap[contact].mean()) if problem.approach is None else problem.approach
 
 
 def _within(problem: GridProblem, contact: Mask, values: Array) -> Array:
-    """Return values on the contact set, less their mean where the load is given and must stay."""
+    """Return values on the contact set, minus their mean where the load is prescribed."""
     out = np.where(contact, values, 0.0)
     if problem.approach is None:
         out = np.where(contact, out - out[contact].mean(), 0.0)
@@ -189,7 +189,7 @@ def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) ->
 
 
 def _product(a: Array, b: Array) -> float:
-    """Return the inner product, without `@`, whose threads are slow on vectors of this length."""
+    """Return the inner product, without `@`, whose threads are slow for vectors of this length."""
     return float(np.sum(a * b))
 
 
@@ -202,8 +202,8 @@ def _growing(problem: GridProblem, most: int) -> GridState:
     """Solve with a contact set that grows from the nearest node.
 
     The nodes that overlap most join the contact, and nodes under tension leave it. Each set is
-    solved by a dense system, and the pressure goes towards that solution as far as it stays
-    without tension (Lawson and Hanson), so no set comes twice. This is quick where few nodes
+    solved by a dense system, and the pressure moves towards that solution as far as it stays
+    without tension (Lawson & Hanson), so that no set occurs twice. This is fast where few nodes
     touch, as under a stiff skin.
     """
     count = problem.clearance.size
@@ -219,7 +219,7 @@ def _growing(problem: GridProblem, most: int) -> GridState:
         wanted, depth = solution
         if np.any(wanted < 0.0):
             pressure[inside] = _towards(pressure[inside], wanted)
-            # Without a step to go, what would be under tension leaves at once.
+            # Nodes at zero pressure that would be under tension leave at once.
             stuck = (pressure[inside] == 0.0) & (wanted < 0.0)
             contact[inside[stuck]] = False
             continue
@@ -236,7 +236,7 @@ def _growing(problem: GridProblem, most: int) -> GridState:
 
 
 def _dense(problem: GridProblem, inside: Indices) -> tuple[Array, float] | None:
-    """Return the pressures that close the gap at some nodes, and the approach; None if singular."""
+    """Return pressures that close the gap at given nodes, and the approach; None if singular."""
     middle = problem.compliance.size - 1
     block = problem.compliance.coefficients[middle + np.abs(inside[:, None] - inside)]
     sides = np.stack([-problem.clearance[inside], np.ones(inside.size)], axis=1)
@@ -255,7 +255,7 @@ def _dense(problem: GridProblem, inside: Indices) -> tuple[Array, float] | None:
 def _towards(pressure: Array, wanted: Array) -> Array:
     """Return the pressure moved towards ``wanted`` as far as no value falls below zero.
 
-    Values that reach zero there are set to exactly zero.
+    Values that reach zero there are set exactly to zero.
     """
     falling = wanted < 0.0
     shares = pressure[falling] / (pressure[falling] - wanted[falling])

@@ -16,13 +16,13 @@ from rollnip.rollers import Profile, Roller, Side
 
 Array = NDArray[np.float64]
 
-_FEWEST = 512  # nodes in the contact of the smooth rollers
-_FAR = 8.0  # half-widths of that contact within the grid, besides what the highest asperity adds
+_FEWEST = 512  # smallest number of nodes in the contact of the smooth rollers
+_FAR = 8.0  # half-widths of that contact covered by the grid, plus what the highest asperity adds
 _MOST_NODES = 2**19
-_GAP = 10.0  # median distances of samples
-_FEW_SAMPLES = 64  # in the contact of the smooth rollers
+_GAP = 10.0  # distance of samples over their median distance, above which there is a reservation
+_FEW_SAMPLES = 64  # number in the contact of the smooth rollers, below which there is one
 _STEEP = 0.5  # rms slope; measured surfaces stay below it, heights in a wrong unit do not
-_CURVED = 0.5  # share of the roller's curvature that a profile must not hold
+_CURVED = 0.5  # relative difference of a profile's curvature from the roller's that is suspicious
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +31,8 @@ class SampledProfiles:
 
     Attributes
     ----------
-    x : (n,) [mm], at equal distances.
-    upper, lower : (n,) heights over the smooth rollers, positive out of each [mm].
+    x : (n,) equidistant places [mm].
+    upper, lower : (n,) heights above the smooth rollers, positive out of each [mm].
     reservations : on the samples.
     """
 
@@ -48,16 +48,17 @@ class SampledProfiles:
 
 
 def sampled(nip: Nip, half_width: float) -> SampledProfiles:
-    """Profiles of a nip on the grid that its contact is solved on.
+    """Return the profiles of a nip on the grid on which its contact is solved.
 
-    The grid has the distance of the samples (their median; the smaller of two profiles), or a
-    whole fraction of it where that leaves fewer than 512 nodes in the contact. It covers what all
-    profiles cover, as far as there can be contact. Profiles are straight between their samples.
+    The grid has the distance of the samples (their median; the smaller one of two profiles), or an
+    integer fraction of it where that leaves fewer than 512 nodes in the contact. It covers the
+    range that all profiles have in common, as far as there can be contact. Profiles are linear
+    between their samples.
 
     Parameters
     ----------
     nip : with a profile.
-    half_width : of the contact of the smooth rollers, about [mm].
+    half_width : of the contact of the smooth rollers, approximately [mm].
 
     Raises
     ------
@@ -75,7 +76,7 @@ def sampled(nip: Nip, half_width: float) -> SampledProfiles:
             + " and ".join(f"{p.x[0]:.6g} to {p.x[-1]:.6g} mm" for p in profiles)
             + "."
         )
-    # On the samples themselves where they are at equal distances.
+    # The nodes are the samples themselves where these are equidistant.
     origin = float(profiles[0].x[0])
     start = ceil((first - origin) / spacing - 1e-6)
     stop = int((last - origin) / spacing + 1e-6)
@@ -101,7 +102,7 @@ def _rollers(nip: Nip) -> tuple[Roller, Roller]:
 
 
 def _ends(nip: Nip, profiles: list[Profile], half_width: float) -> tuple[float, float]:
-    """Return both ends of the grid [mm]: within all profiles, near enough for contact."""
+    """Return both ends of the grid [mm]: within all profiles, and near enough for contact."""
     rise = sum(float(np.ptp(p.height)) for p in profiles)
     far = sqrt((_FAR * half_width) ** 2 + 2.0 * rise / nip.curvature)
     far = min(far, 0.99 * nip.upper.radius, 0.99 * nip.lower.radius)
@@ -153,7 +154,7 @@ def _reservations(
 
 
 def _holds_curvature(roller: Roller, profile: Profile) -> bool:
-    """Return whether a parabola as curved as the roller makes up most of the heights."""
+    """Return whether a parabola with the roller's curvature makes up most of the heights."""
     if roller.curvature == 0.0 or profile.x.size < 8:
         return False
     x = profile.x - profile.x.mean()

@@ -1,4 +1,4 @@
-"""The result of a nip with measured profiles: what `Solution` says, from a uniform grid."""
+"""The result for a nip with measured profiles: a `Solution` from a uniform grid."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
-_MOST_INSIDE = 2000  # nodes whose pressures the stresses inside are computed from
+_MOST_INSIDE = 2000  # most nodes from whose pressures the stresses inside are computed
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RoughSolution(Solution):
     """A snapshot of rough rollers, elastic and without friction.
 
-    Everything that `Solution` says, with these differences: there is no shear, no creepage and no
-    zone; ``torque_upper``, ``torque_lower`` and ``power_in`` are None (what an uneven snapshot
-    would give is not what a turn gives: on average that is 0); ``contact`` has an interval for
-    each piece that touches.
+    It differs from other solutions as follows. There is no shear, no creepage and no zone.
+    ``torque_upper``, ``torque_lower`` and ``power_in`` are None: those of an uneven snapshot differ
+    from their mean over a turn, which is 0. ``contact`` has an interval for each piece that
+    touches.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class RoughSolution(Solution):
 
     @property
     def creepage(self) -> float | None:
-        """Creepage: None, for it is free without friction."""
+        """Creepage: None, since it is not defined without friction."""
         return None
 
     @property
@@ -71,7 +71,7 @@ class RoughSolution(Solution):
 
     @property
     def contact_length(self) -> float:
-        """Length of all contact intervals together: the real contact [mm]."""
+        """Length of all contact intervals together, the real contact [mm]."""
         return sum(leading - trailing for trailing, leading in self.contact)
 
     @property
@@ -96,21 +96,21 @@ class RoughSolution(Solution):
 
     @property
     def torque_upper(self) -> float | None:
-        """Torque on the upper axle: None, for it is not defined for a snapshot."""
+        """Torque on the upper axle: None, since it is not defined for a snapshot."""
         return None
 
     @property
     def torque_lower(self) -> float | None:
-        """Torque on the lower axle: None, for it is not defined for a snapshot."""
+        """Torque on the lower axle: None, since it is not defined for a snapshot."""
         return None
 
     @property
     def power_in(self) -> float | None:
-        """Power of both axles: None, for it is not defined for a snapshot."""
+        """Power of both axles: None, since it is not defined for a snapshot."""
         return None
 
     def _claimed_errors(self) -> dict[str, float]:
-        """Return what changes where every second sample is left out, absolute."""
+        """Return the changes where every second sample is left out, absolute."""
         approach, load, width, peak = self.rough.errors
         if self.nip.has_half_space:
             approach = nan
@@ -128,7 +128,7 @@ class RoughSolution(Solution):
 
     @cached_property
     def profiles(self) -> Profiles:
-        """Distributions in and outside the nip; smooth beyond the measured profile."""
+        """Pressure, gap and strains in the nip and beside it; smooth beyond the measured part."""
         x, upper, lower = self._surfaces
         depths = self._depths(x, upper, lower)
         pressure = np.interp(x, self.nodes, self.pressure, left=0.0, right=0.0)
@@ -148,7 +148,7 @@ class RoughSolution(Solution):
 
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both deformed surfaces with their roughness, in and outside the nip."""
+        """Heights of both deformed surfaces with their roughness, in the nip and beside it."""
         x, upper, lower = self._surfaces
         depths = self._depths(x, upper, lower)
         return DeformedSurfaces(x, depths[0] - self.rough.state.approach, -depths[1])
@@ -170,10 +170,10 @@ class RoughSolution(Solution):
 
     @property
     def inside_from(self) -> float:
-        """Depth above which stresses inside are those of a thinned pressure [mm]; 0: nowhere.
+        """Depth from which on stresses inside are resolved [mm]; 0: everywhere.
 
         Stresses inside are computed from at most 2000 pressures, each the mean of its
-        neighbourhood; nearer to the surface than two of their distances details are missing.
+        neighbourhood. Closer to the surface than two of their distances, details are missing.
         """
         nodes, _ = self._thin
         wider = float(nodes[1] - nodes[0])
@@ -194,13 +194,13 @@ class RoughSolution(Solution):
         return thinned(self.nodes, self.pressure, _MOST_INSIDE)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:  # noqa: ARG002
-        """Tractions on either surface in its own frame: the same pressure on both."""
+        """Return the tractions on either surface in its own frame: the same pressure on both."""
         nodes, pressure = self._thin
         return SurfaceTractions(nodes, np.zeros(nodes.size), pressure)
 
     @cached_property
     def _surfaces(self) -> tuple[Array, SurfaceFields, SurfaceFields]:
-        """Places, and what the upper and the lower surface do there."""
+        """Places, and the fields of the upper and the lower surface there."""
         beyond = outside(self.rough, self.nip_width)
         both = self.rough.kernels
         x = np.concatenate([beyond[0], self.nodes, beyond[1]])
@@ -208,11 +208,14 @@ class RoughSolution(Solution):
         return x, upper, surface_fields(both.lower, self.rough, beyond)
 
     def _depths(self, x: Array, upper: SurfaceFields, lower: SurfaceFields) -> tuple[Array, Array]:
-        """Return each surface's distance from the tangent at first touch, without approach [mm]."""
+        """Return the distance of each surface from the tangent at first touch [mm].
+
+        The approach is not included.
+        """
         return _depth(x, self.nip.upper, upper.u_z), _depth(x, self.nip.lower, lower.u_z)
 
     def _strain(self, roller: Roller, fields: SurfaceFields) -> Array:
-        """du_x/dx, on rings the stretch less 1, as for smooth rollers."""
+        """Return du_x/dx, in rings the stretch less 1, as for smooth rollers."""
         if self.model.geometry == "linear":
             return fields.strain
         hoop = hoop_curvature(roller, self.model.geometry)

@@ -1,4 +1,4 @@
-"""The flow of one solution with measured profiles."""
+"""The solution of a nip with measured profiles: contact, check, result."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from rollnip.validity import CONTACT_ANGLE, THICKNESS_RATIO, pressed_in
 from rollnip.verdict import ACCEPT_IT, WORDS, estimated_error_of, left_open, violated, worst_error
 
 _TOO_FAR_APART = "the samples are too far apart; measure more closely"
-_NOTED = 0.01  # relative error of a figure that is worth a note
+_NOTED = 0.01  # relative error of a figure, above which there is a reservation
 
 
 def solve_rough(
@@ -37,14 +37,14 @@ def solve_rough(
     ----------
     nip : with a profile on at least one roller.
     model :
-        geometry "linear" or "curved"; in place of "second" and "finite" "curved" is solved.
-    on_failure : as in ``solve``.
+        geometry "linear" or "curved"; "curved" is solved in place of "second" and "finite".
+    on_failure : as for ``solve``.
     version : of rollnip, for the record.
 
     Raises
     ------
     InvalidInputError
-        where the geometry is "corrected", or the profile does not reach beyond the contact.
+        where the geometry is "corrected", or the profile does not extend beyond the contact.
     ConvergenceError
         where ``on_failure`` is "raise" and the solution could not be verified.
     """
@@ -93,9 +93,9 @@ def solve_rough(
 
 
 def _levelled(nip: Nip) -> Nip:
-    """The nip whose approach is counted from the middle heights of its profiles.
+    """Return the nip with its approach measured from the median heights of its profiles.
 
-    A constant height is a larger radius: it must not decide where contact is looked for.
+    A constant height is like a larger radius; it must not affect where contact is looked for.
     """
     if isinstance(nip.normal, LineLoad):
         return nip
@@ -106,10 +106,11 @@ def _levelled(nip: Nip) -> Nip:
 
 
 def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
-    """Return whether the contact on the samples is valid, and a sentence that says so.
+    """Return whether the contact on the samples is verified, and a sentence that says so.
 
-    The approach (or the load) must meet the tolerance. What the samples leave open of the width and
-    the peak counts as met up to the coarsest tolerance, and the sentence names it.
+    The approach (or the load) must meet the tolerance. The errors of nip width and peak pressure
+    that are due to the samples count as met up to the coarsest tolerance, and the sentence states
+    them.
     """
     if not rough.state.settled:
         return False, (
@@ -153,7 +154,7 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
 
 
 def _unresolved(name: str, error: float, model: Model, *, is_met_by_tolerance: bool) -> str:
-    """Return a sentence on a figure whose error is too large, and on what helps."""
+    """Return the sentence on a figure whose error is too large, and what helps."""
     if is_met_by_tolerance:
         return (
             f"{estimated_error_of(WORDS[name], error)}, more than the tolerance "
@@ -182,8 +183,8 @@ def _reservations(solution: RoughSolution) -> Iterator[Reservation]:
     if solution.inside_from > 0.0:
         yield Reservation(
             "inside_from",
-            "Stresses inside are those of an averaged pressure: do not read them at depths below "
-            "{depth:.2g} mm.",
+            "Stresses inside are those of an averaged pressure: do not read them at depths of less "
+            "than {depth:.2g} mm.",
             {"depth": solution.inside_from},
         )
     pressed = pressed_in(nip, solution.rough.pressed_in)

@@ -1,4 +1,4 @@
-"""Rubber at large strain: from tension, compression and shear tests to a strain energy."""
+"""Rubber at large strain: strain energies fitted to tension, compression and shear tests."""
 
 from rollnip.rubber.data import TESTS, RubberData, Test, joined, read_rubber
 from rollnip.rubber.fit import LAWS, Constant, Law, RubberFit, fit_rubber

@@ -6,8 +6,8 @@
     equibiaxial, 1.31,    0.434
 
 A table has one of the columns ``stretch`` and ``strain`` (stretch less 1, or in "shear" the amount
-of shear) and ``stress``, force over undeformed area, with its unit. A column ``test`` says what
-each row is; without it all rows are of one test.
+of shear) and a column ``stress``, force over undeformed area, with its unit. A column ``test``
+names the test of each row; without it all rows belong to one test.
 """
 
 from __future__ import annotations
@@ -34,17 +34,18 @@ class RubberData:
 
     Attributes
     ----------
-    source : where they come from, for messages.
-    test : (n,) what each row is: "tension" or "compression" along one direction, "equibiaxial"
+    source : origin of the data, for messages.
+    test : (n,) test of each row: "tension" or "compression" along one direction, "equibiaxial"
         tension, "planar" tension of a wide sheet, or simple "shear".
-    stretch : (n,) along the loaded direction; in "shear" the amount of shear.
+    stretch : (n,) stretch along the loaded direction; in "shear" the amount of shear.
     stress : (n,) force over undeformed area, tension positive [MPa].
 
     Raises
     ------
     InvalidInputError
-        where lengths differ, no row is given, a test is unknown, a number is not finite, a stretch
-        is not positive, or a row of "compression" is stretched.
+        where lengths differ, there is no row, a test is unknown, a number is not finite, a stretch
+        is
+        not positive, or a row of "compression" has a stretch above 1.
     """
 
     source: str
@@ -83,21 +84,21 @@ class RubberData:
             )
 
     def rows(self, test: Test) -> NDArray[np.bool_]:
-        """Return which rows are of a test, (n,)."""
+        """Return a mask (n,) of the rows of one test."""
         return np.array([one == test for one in self.test])
 
     @property
     def tests(self) -> tuple[Test, ...]:
-        """The tests there are."""
+        """The tests that occur in the data."""
         return tuple(test for test in TESTS if test in self.test)
 
     def up_to(self, strain: float) -> RubberData:
-        """Return the rows whose strain, stretch less 1, is at most this in size.
+        """Return the rows whose strain, stretch less 1, is at most this in absolute value.
 
         Raises
         ------
         InvalidInputError
-            where none is left.
+            where no row is left.
         """
         kept = [
             abs(stretch - (0.0 if test == "shear" else 1.0)) <= strain
@@ -113,7 +114,7 @@ class RubberData:
 
 
 def joined(parts: list[RubberData]) -> RubberData:
-    """Return the rows of several sets, one after the other."""
+    """Return the rows of several data sets, one after the other."""
     return RubberData(
         ", ".join(one.source for one in parts),
         tuple(test for one in parts for test in one.test),
@@ -132,19 +133,20 @@ def read_rubber(
     path :
         the file.
     test :
-        what all rows are, where there is no column ``test``.
+        test of all rows, where there is no column ``test``.
     sheet :
         sheet of a workbook; the first by default.
 
     Returns
     -------
-    RubberData. Rows of "compression" may be written as strains and stresses that are all positive.
+    RubberData. In rows of "compression", strains and stresses may be written as positive numbers,
+    if all of them are.
 
     Raises
     ------
     InvalidInputError
-        naming file, line and column: it cannot be read, a column is missing or has a wrong unit, a
-        row is of no known test, a stretch is impossible.
+        where the file cannot be read, a column is missing or has a wrong unit, a row belongs to no
+        known test, or a stretch is impossible; the message names file, line and column.
     """
     table = read_columns(path, sheet=sheet)
     unknown = [name for name in table.names if name not in _NAMES]

@@ -1,9 +1,9 @@
 """Strain energies fitted to homogeneous tests.
 
-Each residual is the difference of nominal stresses over |measured| + 5 % of the largest of its
-test: relative where a test is well under way, absolute where it starts. Yeoh's energy is linear in
-its constants. The exponents of Ogden's are searched for from many starts, its terms are kept
-positive (mu_n a_n > 0), so that each of them is stable.
+Each residual is the difference of nominal stresses divided by |measured| + 5 % of the largest
+stress of its test: relative at larger strains, absolute near the origin. Yeoh's energy is linear in
+its constants. The exponents of Ogden's are searched for from several starts; its terms are kept
+positive (mu_n a_n > 0), which makes each of them stable.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from rollnip.rubber.laws import nominal_stress, stretches, unstable_from
 Law = Literal["neo-hookean", "yeoh", "gent", "ogden"]
 LAWS: tuple[Law, ...] = get_args(Law)
 CONFIDENCE = 0.95
-_START = 0.05  # of the largest stress of a test, added to each
+_START = 0.05  # of the largest stress of a test, added to every |stress| in the denominator
 _EXPONENTS = (-8.0, -5.0, -3.0, -2.0, -1.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 13.0)
 _STARTS = 6
 _MOST_TERMS = 4
 _FARTHEST_EXPONENT = 40.0
-_USUAL = (0.5, 2.0)  # stretches that a covering may see: stability there is worth a warning
-_WAYS: dict[Test, str] = {
+_USUAL = (0.5, 2.0)  # stretches that a cover may reach: instability within them gives a warning
+_LOADINGS: dict[Test, str] = {
     "tension": "tension or compression",
     "equibiaxial": "equibiaxial tension or compression",
     "planar": "plane strain",
@@ -42,7 +42,7 @@ _Model = Callable[[Array], tuple[float, Energy]]
 
 @dataclass(frozen=True)
 class Constant:
-    """A fitted constant with the ends of its 95 % interval, as far as a linear model knows it."""
+    """A fitted constant with the ends of its 95 % confidence interval from a linearised model."""
 
     name: str
     value: float
@@ -53,18 +53,18 @@ class Constant:
 
 @dataclass(frozen=True)
 class RubberFit:
-    """A strain energy that follows the tests of a rubber.
+    """A strain energy fitted to the tests of a rubber.
 
     Attributes
     ----------
     data : the measurements used.
     law : name of the energy.
-    material : with the fitted modulus and energy.
-    constants : the fitted ones; of "ogden" the share mu a/2 of G that each term has, and a.
+    material : material with the fitted modulus and energy.
+    constants : the fitted constants; for "ogden" each term's share mu a/2 of G, and its exponent a.
     deviation : (n,) computed less measured nominal stress [MPa].
-    rms : of the deviations over the largest stress of their test, by test.
-    unstable : by test, the stretches below and above 1 from which it is not stable; None: stable
-        as far as was looked.
+    rms : by test, rms of the deviations over the largest stress of the test.
+    unstable : by test, the stretches below and above 1 from which the energy is unstable; None
+        where it is stable within the range examined.
     warnings : reservations, each a sentence.
     """
 
@@ -97,20 +97,20 @@ def fit_rubber(
     Parameters
     ----------
     data :
-        of one test or several; several tell energies apart, one often does not.
+        one kind of test or several; several can distinguish energies, one often cannot.
     law :
         "neo-hookean", "yeoh", "gent" or "ogden".
     terms :
         number of terms of "ogden", 1 to 4.
     poisson :
-        Poisson ratio that the material gets; the tests do not know it.
+        Poisson ratio assigned to the material; the tests do not determine it.
 
     Raises
     ------
     InvalidInputError
         where the law is unknown, the number of terms or the Poisson ratio lies outside its range,
-        there are not more measurements than constants, a test has no strain or no stress, or the
-        stresses do not go the way of the strains.
+        there are not more measurements than constants, a test has only zero strains or stresses, or
+        the stresses have the opposite sign to the strains.
     """
     if law not in LAWS:
         raise InvalidInputError(f"`law` must be one of {', '.join(LAWS)}, got {law!r}.")
@@ -126,20 +126,24 @@ def fit_rubber(
         )
     if not problem.neo_hookean > 0.0:
         raise _wrong_way(data, problem.neo_hookean)
-    model, starts, names = _parts(law, terms, problem)
+    model, starts, names = _search_setup(law, terms, problem)
     best = min((problem.minimised(model, start) for start in starts), key=lambda one: one[1])[0]
     shear, energy = model(best)
     if not shear > 0.0:
         raise _wrong_way(data, shear)
     material = Elastic(modulus=2.0 * (1.0 + poisson) * shear, poisson=poisson, energy=energy)
-    unstable = {test: unstable_from(energy, test) for test in _WAYS}
+    unstable = {test: unstable_from(energy, test) for test in _LOADINGS}
     deviation = problem.stress(shear, energy) - data.stress
     rms = {
         test: float(np.sqrt(np.mean((deviation / problem.largest)[data.rows(test)] ** 2)))
         for test in data.tests
     }
     constants = _constants(problem, model, best, names)
-    warnings = (*_stability(law, data, unstable), *_range(data), *_open(constants, shear))
+    warnings = (
+        *_stability(law, data, unstable),
+        *_one_test_only(data),
+        *_undetermined(constants, shear),
+    )
     return RubberFit(data, law, material, constants, deviation, rms, unstable, warnings)
 
 
@@ -159,7 +163,7 @@ def _require_strain_and_stress(data: RubberData) -> None:
 
 
 def _wrong_way(data: RubberData, shear: float) -> InvalidInputError:
-    """Return the error of stresses against the strains."""
+    """Return the error for stresses opposite in sign to the strains."""
     return InvalidInputError(
         f"{data.source}: the stresses must go the way of the strains; the fitted shear modulus "
         f"is {shear:.3g} MPa. Check the signs of the columns."
@@ -167,7 +171,7 @@ def _wrong_way(data: RubberData, shear: float) -> InvalidInputError:
 
 
 class _EnergyResiduals:
-    """Residuals of energies on given data."""
+    """Residuals of strain energies against given data."""
 
     def __init__(self, data: RubberData) -> None:
         self.data = data
@@ -188,18 +192,18 @@ class _EnergyResiduals:
         return out
 
     def residuals(self, model: _Model, at: Array) -> Array:
-        """Return the residuals, (n,); 1e3 where the energy has no such stretch."""
+        """Return the residuals, (n,); 1e3 where the energy cannot reach a stretch."""
         with np.errstate(all="ignore"):
             found = (self.stress(*model(at)) - self.data.stress) / self.scale
         return np.where(np.isfinite(found), np.clip(found, -1e3, 1e3), 1e3)
 
     def minimised(self, model: _Model, start: Array) -> tuple[Array, float]:
-        """Return the best constants from a start, and half the sum of squares."""
+        """Return the best constants found from a start, and half the sum of squares."""
         found = least_squares(lambda at: self.residuals(model, at), start, x_scale="jac")
         return found.x, float(found.cost)
 
     def ogden_starts(self, terms: int) -> list[Array]:
-        """Return the best few starts over all choices of exponents, the terms not negative."""
+        """Return the best few starts over all choices of exponents, with non-negative terms."""
         bases = {a: self.stress(1.0, Ogden(((a, a),))) / self.scale for a in _EXPONENTS}
         wanted = self.data.stress / self.scale
         tried = []
@@ -211,10 +215,10 @@ class _EnergyResiduals:
         return [start for _, start in tried[:_STARTS]]
 
 
-def _parts(
+def _search_setup(
     law: Law, terms: int, problem: _EnergyResiduals
 ) -> tuple[_Model, list[Array], list[str]]:
-    """Return the energy as a function of coordinates, starts, and the names of the constants."""
+    """Return the energy as a function of the fit variables, starts, and names of the constants."""
     shear = problem.neo_hookean
     if law == "neo-hookean":
         return lambda at: (at[0], NeoHookean()), [np.array([shear])], ["G"]
@@ -228,7 +232,7 @@ def _parts(
     if law == "gent":
         excess = max(_largest_excess(problem.data), 1e-3)
         starts = [np.array([shear, np.log(0.1 * excess)]), np.array([shear, np.log(10 * excess)])]
-        # chains are longer than any stretch that was reached
+        # the limit of I1 - 3 stays above its largest measured value
         return lambda at: (at[0], Gent(excess + np.exp(at[1]))), starts, ["G", "limit"]
 
     def ogden(at: Array) -> tuple[float, Energy]:
@@ -254,17 +258,17 @@ def _largest_excess(data: RubberData) -> float:
 def _constants(
     problem: _EnergyResiduals, model: _Model, best: Array, names: list[str]
 ) -> tuple[Constant, ...]:
-    """Return the constants with intervals from the derivatives of the residuals at the best fit.
+    """Return the constants with intervals from the Jacobian of the residuals at the best fit.
 
-    Positive constants by their logarithm.
+    The intervals of positive constants are computed for their logarithm.
     """
     count = problem.data.stress.size
     step = 1e-5 * np.maximum(np.abs(best), 1e-3)
     sides = [(best + move, best - move) for move in np.diag(step)]
     slopes = [problem.residuals(model, a) - problem.residuals(model, b) for a, b in sides]
     jacobian = np.stack(slopes, axis=1) / (2.0 * step)
-    left = float(np.sum(problem.residuals(model, best) ** 2)) / (count - best.size)
-    spread = covariance(jacobian, np.ones(count)) * left
+    variance = float(np.sum(problem.residuals(model, best) ** 2)) / (count - best.size)
+    spread = covariance(jacobian, np.ones(count)) * variance
     reach = float(student.ppf(0.5 + 0.5 * CONFIDENCE, count - best.size))
     out = []
     for name in names:
@@ -285,7 +289,7 @@ def _constants(
 
 
 def _value(name: str, shear: float, energy: Energy) -> float:
-    """Return a constant by its name."""
+    """Return the value of a constant, given its name."""
     if name == "G":
         return shear
     if isinstance(energy, Ogden):
@@ -298,7 +302,7 @@ def _value(name: str, shear: float, energy: Energy) -> float:
 def _stability(
     law: Law, data: RubberData, unstable: dict[Test, tuple[float | None, float | None]]
 ) -> list[str]:
-    """Return a sentence where the energy is not stable at stretches measured or usual."""
+    """Return warnings where the energy is unstable at stretches that were measured or are usual."""
     lines = []
     for test, ends in unstable.items():
         rows = data.rows("tension") | data.rows("compression") if test == "tension" else None
@@ -310,15 +314,15 @@ def _stability(
             if end is not None and (is_seen <= end if end < 1.0 else end <= is_seen):
                 side = "below" if end < 1.0 else "beyond"
                 lines.append(
-                    f"The energy ({law}) is not stable in {_WAYS[test]} {side} a stretch of "
+                    f"The energy ({law}) is not stable in {_LOADINGS[test]} {side} a stretch of "
                     f"{end:.2f}: more strain takes less stress there (Drucker). Take another law, "
                     "or measure there."
                 )
     return lines
 
 
-def _range(data: RubberData) -> list[str]:
-    """Return a sentence where one kind of test leaves the others open."""
+def _one_test_only(data: RubberData) -> list[str]:
+    """Return a warning where only one kind of test exists, which does not determine others."""
     if len(data.tests) > 1:
         return []
     return [
@@ -327,10 +331,12 @@ def _range(data: RubberData) -> list[str]:
     ]
 
 
-def _open(constants: tuple[Constant, ...], shear: float) -> list[str]:
-    """Return a sentence about constants that the data leave open.
+def _undetermined(constants: tuple[Constant, ...], shear: float) -> list[str]:
+    """Return a warning about constants that the data do not determine.
 
-    The interval of a modulus is seen over G, that of a number over this, or over 1 if it is less.
+    The width of an interval is compared with G for a modulus, and for a number with its absolute
+    value
+    or 1, whichever is larger.
     """
     lost = [
         one.name

@@ -1,15 +1,15 @@
-"""Stress of an incompressible rubber in homogeneous tests, and where it is stable.
+"""Stress of an incompressible rubber in homogeneous tests, and the stretches at which it is stable.
 
-With w the energy over G and l3 free of stress the nominal stresses are
+With w the energy over G and zero stress in direction 3, the nominal stress is
 
     P1/G = dw/dl1 - (l3/l1) dw/dl3,
 
-with (l1, l2, l3) = (l, l^-1/2, l^-1/2) in tension and compression, (l, l, l^-2) equibiaxial and
-(l, 1, 1/l) planar. Simple shear g has the stretches l, 1, 1/l with g = l - 1/l and the stress
-dw/dg = (dw/dl1 - l^-2 dw/dl3)/(1 + l^-2).
+with (l1, l2, l3) = (l, l^-1/2, l^-1/2) in tension and compression, (l, l, l^-2) in equibiaxial and
+(l, 1, 1/l) in planar tension. Simple shear of the amount g has the stretches l, 1, 1/l with
+g = l - 1/l and the stress dw/dg = (dw/dl1 - l^-2 dw/dl3)/(1 + l^-2).
 
-An increment of strain meets resistance (Drucker) where the matrix d tau_i/d e_j is positive
-definite, tau_i = l_i dw/dl_i - l3 dw/dl3 the stresses and e_j = ln l_j the strains in the plane
+The material is stable in Drucker's sense where the matrix d tau_i/d e_j is positive definite:
+tau_i = l_i dw/dl_i - l3 dw/dl3 are the stresses and e_j = ln l_j the strains in the plane
 perpendicular to the stress-free direction.
 """
 
@@ -21,12 +21,12 @@ from rollnip.materials import Energy
 from rollnip.rubber.data import Array, Test
 
 _STEP = 1e-5  # of logarithmic strain, for derivatives
-_FARTHEST = np.log(10.0)  # logarithmic strain up to which stability is looked at
+_FARTHEST = np.log(10.0)  # logarithmic strain up to which stability is examined
 _POINTS = 400
 
 
 def stretches(test: Test, stretch: Array) -> Array:
-    """Return the principal stretches of a test, (3, n); of "shear" the amount is given."""
+    """Return the principal stretches of a test, (3, n); for "shear", ``stretch`` is the amount."""
     stretch = np.asarray(stretch, dtype=float)
     if test == "shear":
         longer = 0.5 * (np.abs(stretch) + np.hypot(stretch, 2.0))
@@ -39,9 +39,9 @@ def stretches(test: Test, stretch: Array) -> Array:
 
 
 def nominal_stress(energy: Energy, test: Test, stretch: Array) -> Array:
-    """Return force over undeformed area and G at some stretches, (n,).
+    """Return force over undeformed area, divided by G, at some stretches, (n,).
 
-    nan where the energy has no such stretch.
+    nan where the energy cannot reach a stretch.
     """
     at = stretches(test, stretch)
     slopes = np.asarray(energy.principal(at))
@@ -52,10 +52,11 @@ def nominal_stress(energy: Energy, test: Test, stretch: Array) -> Array:
 
 
 def unstable_from(energy: Energy, test: Test) -> tuple[float | None, float | None]:
-    """Return the stretches nearest to 1 below and above it from which a test is not stable.
+    """Return the stretches nearest to 1, below and above it, from which a test is unstable.
 
-    Looked for from a tenth to ten times the length, in "shear" up to the amount 9.9; None where
-    there is none, or the chains of a Gent material are straight before.
+    The range examined is a tenth to ten times the length, in "shear" the amounts up to 9.9. None
+    where
+    the test is stable within it, or up to the limiting stretch of a Gent material.
     """
     ends: list[float | None] = []
     for sign in (-1.0, 1.0):
@@ -68,7 +69,7 @@ def unstable_from(energy: Energy, test: Test) -> tuple[float | None, float | Non
 
 
 def _determinant(energy: Energy, at: Array) -> Array:
-    """Return the lesser of the first entry and the determinant of d tau/d e, (n,)."""
+    """Return the smaller of the first entry and the determinant of d tau/d e, (n,)."""
     columns = []
     for way in ((1.0, 0.0), (0.0, 1.0)):
         step = np.exp(_STEP * np.array([*way, -1.0]))[:, None]

@@ -17,7 +17,7 @@ _MARKS = dict(zip(TESTS, "o^sDv", strict=True))
 
 
 def plot_rubber(fit: RubberFit, style: Style = "light") -> Figure:
-    """Draw stresses measured and fitted, and by how much they differ.
+    """Draw measured and fitted stresses, and their deviations.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def plot_rubber(fit: RubberFit, style: Style = "light") -> Figure:
     Returns
     -------
     Figure
-        180 by 75 mm, outside pyplot.
+        180 by 75 mm, not registered with pyplot.
     """
     figure = page(style, _HEIGHT)
     left, right = figure.subplots(1, 2)
@@ -39,7 +39,7 @@ def plot_rubber(fit: RubberFit, style: Style = "light") -> Figure:
 
 
 def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw nominal stress over strain, with the energy as curves."""
+    """Draw the measured nominal stress over strain, with the fitted energy as curves."""
     ax, look = prepare(ax, style)
     colours, data = look.palette, fit.data
     for number, test in enumerate(data.tests):
@@ -70,7 +70,7 @@ def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = No
 def plot_stress_deviation(
     fit: RubberFit, ax: Axes | None = None, style: Style | None = None
 ) -> Axes:
-    """Draw computed less measured stress in per cent of the largest one of each test."""
+    """Draw computed less measured stress in per cent of the largest stress of each test."""
     ax, look = prepare(ax, style)
     colours, data = look.palette, fit.data
     for number, test in enumerate(data.tests):

@@ -14,14 +14,14 @@ _NAME = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def rubber_toml(fit: RubberFit, name: str = "rubber") -> str:
-    """Return the material as a table ``[materials.name]`` that a case file takes as it is.
+    """Return the material as a table ``[materials.name]`` ready to paste into a case file.
 
-    Comments say where it comes from, how far it departs from the data, and the intervals.
+    Comments state its source, its deviation from the data, and the intervals of the constants.
 
     Raises
     ------
     InvalidInputError
-        where the name is none for a TOML key.
+        where the name cannot be a TOML key.
     """
     if _NAME.fullmatch(name) is None or name == "rigid":
         raise InvalidInputError(
@@ -41,7 +41,7 @@ def rubber_toml(fit: RubberFit, name: str = "rubber") -> str:
 
 
 def rubber_lines(fit: RubberFit) -> list[str]:
-    """Return what was fitted to what, how well, and how far it may be trusted, line by line."""
+    """Return a summary of the fit, line by line: data, deviations, constants, warnings."""
     counts = ", ".join(f"{int(fit.data.rows(test).sum())} of {test}" for test in fit.data.tests)
     lines = [f"{fit.law}, fitted to {fit.data.source}: {counts}"]
     lines += [

@@ -1,4 +1,4 @@
-"""Many cases: studies, one case to one row, sweeps over many cores and machines."""
+"""Many cases: studies, the row of results of one case, and sweeps over many cores and machines."""
 
 from rollnip.sweeps.at_once import Together, together
 from rollnip.sweeps.recall import recalling

@@ -1,4 +1,4 @@
-"""Several cases at a time for searches, which ask for them one by one or in small batches."""
+"""Worker processes for searches, which ask for their cases one by one or in small batches."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rollnip.sweeps.row import Row, evaluate
 
 _A = TypeVar("_A")
 _B = TypeVar("_B")
-_LOOK = 0.2  # s, between two looks at whether an interrupt came
+_LOOK = 0.2  # s, between two checks for an interrupt
 
 Evaluate = Callable[[Mapping[str, Any]], Row]
 
@@ -25,7 +25,8 @@ class Together:
 
     Attributes
     ----------
-    evaluate : as `rollnip.sweeps.evaluate`, done by a worker process; may be called from threads.
+    evaluate : like `rollnip.sweeps.evaluate`, but run in a worker process; may be called from
+        threads.
     """
 
     def __init__(
@@ -39,9 +40,9 @@ class Together:
         return Together(evaluate, self._threads, self._interrupts)
 
     def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
-        """Call a function with every item at the same time; results in the order of the items.
+        """Call a function with every item concurrently; the results are in the order of the items.
 
-        Raises KeyboardInterrupt after Ctrl-C, and what the first item that failed raised.
+        Raises KeyboardInterrupt after Ctrl-C, and otherwise whatever the first failed item raised.
         """
         if self._threads is None or len(items) < 2:
             return [function(one) for one in items]
@@ -55,19 +56,20 @@ class Together:
 
 @contextmanager
 def together(workers: int, interrupts: Interrupts) -> Iterator[Together]:
-    """Worker processes that solve cases; with one worker this process does.
+    """Start worker processes that solve cases; with one worker, this process solves them itself.
 
     Parameters
     ----------
     workers :
         number of workers.
     interrupts :
-        interrupts of the caller, entered before and left after.
+        interrupts of the caller, entered before this context and left after it.
 
     Raises
     ------
     RollnipError
-        where processes cannot be started; and in `Together.evaluate`, where one ends on a case.
+        where processes cannot be started, and from `Together.evaluate` where a process dies on a
+        case.
     """
     if workers <= 1:
         interrupts.strike_at(1)

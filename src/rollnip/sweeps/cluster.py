@@ -1,4 +1,4 @@
-"""Dask, for more than one machine, through the extra ``rollnip[cluster]``."""
+"""Sweeps on a Dask cluster, for more than one machine, through the extra ``rollnip[cluster]``."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from rollnip.sweeps.task import Outcome, Task
 from rollnip.sweeps.version import own_version
 
 _ADDRESS = re.compile(r"([a-z]+://)?\S+:\d+")
-_CHUNK_SECONDS = 0.25  # a task costs Dask some milliseconds
+_CHUNK_SECONDS = 0.25  # duration of a task; each one costs Dask some milliseconds of overhead
 PATIENCE = "30s"
-"""How long a scheduler may take to answer."""
+"""Longest time to wait for an answer from the scheduler."""
 LONELY = 30.0
-"""Seconds without any worker after which a sweep gives up."""
-_LOOK = 2.0  # s, between two looks at who is there
+"""Time without any worker after which a sweep gives up [s]."""
+_LOOK = 2.0  # s, between two checks for workers
 
 
 @contextmanager
 def dask_crew(address: str, workers: int) -> Iterator[Given]:
-    """Workers of a Dask cluster.
+    """Connect to the workers of a Dask cluster.
 
     Parameters
     ----------
     address :
         address of the scheduler, such as tcp://host:8786; "local" starts a cluster on this machine.
     workers :
-        processes of the local cluster.
+        number of processes of the local cluster.
 
     Raises
     ------
     RollnipError
-        where the extra is missing, the scheduler does not answer, has no workers, or these have
+        where the extra is missing, the scheduler does not answer or has no workers, or a worker has
         no rollnip or another version of it.
     """
     if address != "local" and not _ADDRESS.fullmatch(address):
@@ -66,14 +66,14 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
 
 
 class DaskCrew(Given):
-    """Workers of a Dask cluster.
+    """The workers of a Dask cluster.
 
     Parameters
     ----------
     client :
         client of the scheduler.
     workers :
-        threads of all workers.
+        number of threads of all workers together.
     name :
         name of the cluster, for messages.
     """
@@ -85,16 +85,16 @@ class DaskCrew(Given):
 
     def submit(self, task: Task) -> Future[list[Outcome]]:
         """Start a task. Raises RollnipError where the scheduler is gone."""
-        with _scheduler_told(self._name):
+        with _plain_errors(self._name):
             return super().submit(task)
 
     def require_alive(self) -> None:
-        """Raise RollnipError where the scheduler is gone, or no worker came back for a while."""
+        """Raise RollnipError where the scheduler is gone or had no worker for `LONELY` seconds."""
         now = monotonic()
         if now - self._looked < _LOOK:
             return
         self._looked = now
-        with _scheduler_told(self._name):
+        with _plain_errors(self._name):
             if self._client.nthreads():
                 self._seen = now
         if now - self._seen > LONELY:
@@ -105,7 +105,7 @@ class DaskCrew(Given):
 
 
 @contextmanager
-def _scheduler_told(name: str) -> Iterator[None]:
+def _plain_errors(name: str) -> Iterator[None]:
     """Turn a lost connection into a RollnipError that says so."""
     try:
         yield
@@ -131,8 +131,11 @@ def _connected(connect: Any, address: Any) -> Iterator[Any]:
 
 
 def _checked(client: Any, name: str) -> Given:
-    """The workers, all of this version of rollnip; one that is lost meanwhile is left out."""
-    with _scheduler_told(name):
+    """Return the crew after checking that every worker runs this version of rollnip.
+
+    A worker that is lost during the check is left out.
+    """
+    with _plain_errors(name):
         answers = client.run(version.own_version, on_error="return")
     ours = own_version()
     for worker, theirs in answers.items():
@@ -147,7 +150,7 @@ def _checked(client: Any, name: str) -> Given:
             raise RollnipError(
                 f"{name}: worker {worker} has rollnip {theirs}, this is {ours}; install that there."
             )
-    with _scheduler_told(name):
+    with _plain_errors(name):
         threads = sum(client.nthreads().values())
     if not threads:
         lost = f"; {len(answers)} were lost while they were asked" if answers else ""

@@ -1,4 +1,4 @@
-"""Connections to the database of a sweep: one process writes, any number read meanwhile."""
+"""Connections to the database of a sweep: one process writes while any number read."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from pathlib import Path
 from rollnip._errors import RollnipError
 from rollnip._files import check_place
 
-_LOCK_SECONDS = 0.5  # longest wait for the file that says who writes
-_BUSY_SECONDS = 30.0  # longest wait for a reader that is closing the database
+_LOCK_SECONDS = 0.5  # longest wait for the lock file of the writer
+_BUSY_SECONDS = 30.0  # longest wait for another connection that is closing the database
 
 
 class Writer:
-    """The right to write a database, for one process at a time, until it closes or dies.
+    """The right to write a database, held by one process at a time until it closes or dies.
 
-    It is a lock that SQLite keeps on a file of its own beside the database, so that the database
-    itself stays open to readers. The system gives it up whatever ends the process.
+    It is a lock that SQLite keeps on a separate file beside the database, so that the database
+    itself
+    stays open to readers. The operating system releases the lock however the process ends.
 
     Parameters
     ----------
@@ -27,7 +28,7 @@ class Writer:
     Raises
     ------
     RollnipError
-        where another process has it, or the folder cannot be written.
+        where another process holds the lock, or the folder cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -40,7 +41,7 @@ class Writer:
             raise RollnipError(f"{path}: {plain(error)}") from error
 
     def close(self) -> None:
-        """Give it up, and leave nothing behind."""
+        """Release the lock and remove its file."""
         with suppress(OSError):
             self._file.unlink(missing_ok=True)
         with suppress(sqlite3.Error):
@@ -48,7 +49,7 @@ class Writer:
 
 
 def open_to_write(path: Path | None) -> sqlite3.Connection:
-    """Open a database, made where it is not there; None: in memory. Raises RollnipError."""
+    """Open a database, creating it if needed; None: in memory. Raises RollnipError."""
     if path is not None:
         check_place(path)
     try:
@@ -63,12 +64,14 @@ def open_to_write(path: Path | None) -> sqlite3.Connection:
 
 
 def open_to_read(path: Path) -> sqlite3.Connection:
-    """Open a database that is there, also while another process writes it.
+    """Open an existing database for reading, even while another process writes it.
 
     Raises
     ------
     RollnipError
-        where there is none, or rows of it stand in a log that cannot be read without writing.
+        where there is no such file, or some of its rows are in a write-ahead log that cannot be
+        read
+        without writing.
     """
     if not path.is_file():
         raise RollnipError(f"{path}: there is no such file.")
@@ -94,12 +97,15 @@ def open_to_read(path: Path) -> sqlite3.Connection:
 
 
 def log_of(path: Path) -> Path:
-    """The write-ahead log of a database: it holds its newest cases until they are moved there."""
+    """Return the path of a database's write-ahead log, which holds the newest cases.
+
+    They stay there until they are moved into the database itself.
+    """
     return path.with_name(f"{path.name}-wal")
 
 
 def is_being_written(path: Path) -> bool:
-    """Return whether a process writes the database now."""
+    """Return whether a process is writing the database now."""
     if not path.with_name(f"{path.name}-lock").is_file():
         return False
     try:
@@ -110,7 +116,7 @@ def is_being_written(path: Path) -> bool:
 
 
 def plain(error: sqlite3.Error) -> str:
-    """Return an error of SQLite as one clear sentence without its subject."""
+    """Return an SQLite error as one clear sentence without its subject."""
     text, code = str(error), getattr(error, "sqlite_errorname", "") or ""
     if code.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")) or "locked" in text:
         return "is in use by another process; wait for it to end."

@@ -1,4 +1,4 @@
-"""Crews that work on the tasks: processes of this machine, or any executor that is given."""
+"""Crews that work on tasks: processes of this machine, or an executor of the caller."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _B = TypeVar("_B")
 
 
 class Crew(Protocol):
-    """A crew of workers that run tasks elsewhere.
+    """A crew of workers that run tasks outside this process.
 
     Attributes
     ----------
-    in_flight : tasks that it should have at a time: enough that nobody waits for the next.
-    chunk_seconds : how long a task should take; 0: one case a task.
+    in_flight : number of tasks to keep submitted, enough that no worker waits for its next one.
+    chunk_seconds : how long a task should take; 0: one case per task.
     """
 
     in_flight: int
@@ -43,20 +43,20 @@ class Crew(Protocol):
         ...
 
     def restart(self) -> None:
-        """Make the crew whole again after it broke. Raises RollnipError where it cannot."""
+        """Replace a broken crew by a working one. Raises RollnipError where it cannot."""
         ...
 
     def require_alive(self) -> None:
-        """Raise RollnipError where nobody is left who could work."""
+        """Raise RollnipError where no worker is left."""
         ...
 
     def abandon(self) -> None:
-        """Give up what is running: its results are not waited for."""
+        """Stop waiting for the running tasks; their results are lost."""
         ...
 
 
 class Processes:
-    """Worker processes of this machine; see `processes`. A task is one case.
+    """Worker processes of this machine, each task one case; see `processes`.
 
     Parameters
     ----------
@@ -79,20 +79,20 @@ class Processes:
         return self._pool.submit(function, argument)
 
     def restart(self) -> None:
-        """New processes in place of those that broke."""
+        """Start new processes in place of the broken ones."""
         self.close()
         self._pool = self._started()
 
     def require_alive(self) -> None:
-        """Do nothing: a pool reports a process that died by itself."""
+        """Do nothing: the pool itself reports a process that died."""
 
     def abandon(self) -> None:
-        """End the processes in the middle of what they do."""
+        """Kill the processes in the middle of their work."""
         for process in list((self._pool._processes or {}).values()):
             process.kill()
 
     def close(self) -> None:
-        """Let the processes end after the case each is at."""
+        """Let each process finish its present case, then end."""
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     def _started(self) -> ProcessPoolExecutor:
@@ -118,16 +118,16 @@ class Processes:
 
 
 class Given:
-    """An executor of the caller's.
+    """An executor that the caller supplies.
 
     Parameters
     ----------
     executor :
-        anything that is a concurrent.futures.Executor.
+        any concurrent.futures.Executor.
     workers :
-        how many tasks it can run at a time.
+        number of tasks that it can run at a time.
     chunk_seconds :
-        how long a task should take, for executors to which a task costs milliseconds.
+        how long a task should take, for executors with an overhead of milliseconds per task.
     """
 
     def __init__(self, executor: Executor, workers: int, chunk_seconds: float = 0.0) -> None:
@@ -147,12 +147,12 @@ class Given:
         """Do nothing: an executor cannot tell whether its workers are alive."""
 
     def abandon(self) -> None:
-        """Do nothing: running tasks are the executor's, and waiting ones were cancelled."""
+        """Do nothing: the executor owns the running tasks, and the waiting ones were cancelled."""
 
 
 @contextmanager
 def crew_of(workers: int, executor: Executor | None = None) -> Iterator[Crew | None]:
-    """The executor that is given, else processes of this machine; None for a single worker."""
+    """Yield the given executor as a crew, else processes of this machine; None for one worker."""
     if executor is not None:
         yield Given(executor, workers)
     elif workers <= 1:
@@ -163,7 +163,7 @@ def crew_of(workers: int, executor: Executor | None = None) -> Iterator[Crew | N
 
 
 def available_cores() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -171,10 +171,11 @@ def available_cores() -> int:
 
 @contextmanager
 def processes(count: int) -> Iterator[Processes]:
-    """Worker processes of this machine, gone at the end; one thread for linear algebra in each.
+    """Start worker processes of this machine, one thread each for linear algebra; end them on exit.
 
-    They are new processes, not forked, leave Ctrl-C to this process, and end with it whatever
-    ends it. Raises RollnipError where they cannot be started.
+    They are spawned, not forked; they leave Ctrl-C to this process, and end with it however it
+    ends.
+    Raises RollnipError where they cannot be started.
     """
     crew = Processes(count)
     try:
@@ -184,9 +185,9 @@ def processes(count: int) -> Iterator[Processes]:
 
 
 def _block_interrupts() -> None:
-    """Block Ctrl-C in this thread; processes that it starts do not hear it until they ignore it.
+    """Block Ctrl-C in this thread, and so in the processes it starts, until they ignore it.
 
-    The handlers and masks of the process that calls are left alone.
+    The signal handlers and masks of the calling process are left alone.
     """
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})

@@ -1,7 +1,7 @@
-"""Checks of a sweep's database, whose file may come from anywhere.
+"""Checks of a sweep's database, whose file may come from an untrusted source.
 
-The file is checked once, when it is opened, and by SQLite itself: a million rows take a few
-seconds and no memory.
+The file is checked once, when it is opened, and by queries of SQLite itself: a million rows take a
+few seconds and no memory.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rollnip.figures import PROFILES
 from rollnip.sweeps.row import SCALARS, STATUSES
 
 MOST_CASES = 10**8
-_LONGEST = 10**6  # letters of a text
+_LONGEST = 10**6  # characters of a text
 _COUNT = 8 * len(PROFILES)  # bytes of one point of all profiles
 _TEXTS = ("hash", "message", "geometry", "warnings")
 
@@ -24,7 +24,7 @@ _TEXTS = ("hash", "message", "geometry", "warnings")
 def require_schema(
     base: sqlite3.Connection, name: str, tables: Mapping[str, tuple[str, ...]]
 ) -> None:
-    """Raise RollnipError unless the database holds these tables with these columns, and no more.
+    """Raise RollnipError unless the database holds exactly these tables with these columns.
 
     A view, a trigger or a generated column could compute anything when it is read.
     """
@@ -43,20 +43,20 @@ def require_schema(
 
 
 def checked_about(name: str, text: Any, form: int, kinds: Mapping[str, type]) -> dict[str, Any]:
-    """Return what a database says of its study, each value of its kind.
+    """Return a database's description of its study, each value checked for its type.
 
     Parameters
     ----------
     name : name of the database.
-    text : JSON.
-    form : the number of the form that is read; it is left out of what is returned.
-    kinds : type of the value of each key; ``tuple`` is a list of texts.
+    text : the description, as JSON.
+    form : number of the database format that can be read; it is left out of what is returned.
+    kinds : type of the value of each key; ``tuple`` stands for a list of texts.
 
     Raises
     ------
     RollnipError
-        where it is of another form, a key is missing, unknown or of another kind, or a number is
-        out of range.
+        where the database has another format, a key is missing, unknown or of another type, or a
+        number is out of range.
     """
     try:
         tree = json.loads(text)
@@ -100,7 +100,7 @@ def _is_of(value: Any, kind: type) -> bool:
 
 
 def require_sound_rows(base: sqlite3.Connection, name: str, count: int, parameters: int) -> None:
-    """Raise RollnipError, naming a case, where a row holds what no sweep writes.
+    """Raise RollnipError, naming a case, where a row holds something that no sweep writes.
 
     Parameters
     ----------

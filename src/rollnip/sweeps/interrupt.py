@@ -1,4 +1,4 @@
-"""Ctrl-C while many cases are solved: counted, and acted upon where nothing is half done."""
+"""Ctrl-C while many cases are solved: counted, and acted upon only where nothing is half done."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from typing import Any
 
 
 class Interrupts:
-    """Counts what asks the process to end, within ``with``; outside, all is as before.
+    """Counts the signals that ask the process to end, within ``with``; restores the handlers after.
 
-    A KeyboardInterrupt strikes anywhere: in a lock of the process pool it leaves the pool waiting
-    for ever. So none is raised while others work: who waits for them looks at ``count``.
+    A KeyboardInterrupt may be raised anywhere; raised inside a lock of the process pool, it leaves
+    the
+    pool waiting for ever. So none is raised while workers are busy: the code that waits for them
+    reads
+    ``count``.
 
     Parameters
     ----------
@@ -23,7 +26,7 @@ class Interrupts:
     Attributes
     ----------
     count : number of interrupts so far.
-    strikes_at : the one that raises KeyboardInterrupt on the spot; 0: none does.
+    strikes_at : number of the interrupt that raises KeyboardInterrupt immediately; 0: none does.
     """
 
     def __init__(self, signals: Sequence[signal.Signals] = (signal.SIGINT,)) -> None:
@@ -44,13 +47,13 @@ class Interrupts:
             signal.signal(one, handler)
 
     def strike_at(self, number: int) -> None:
-        """Raise KeyboardInterrupt on the spot at this one; 0: at none. What came before counts."""
+        """Raise KeyboardInterrupt at once from this interrupt on; 0: never. Earlier ones count."""
         self.strikes_at = number
         if number and self.count >= number:
             raise KeyboardInterrupt
 
     def check(self) -> None:
-        """Raise KeyboardInterrupt where any came."""
+        """Raise KeyboardInterrupt if any interrupt came."""
         if self.count:
             raise KeyboardInterrupt
 

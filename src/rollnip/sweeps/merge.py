@@ -1,4 +1,4 @@
-"""Transfers between databases: shards of a study become one, known cases are taken over."""
+"""Transfers between databases: merge the shards of a study, and reuse cases of other studies."""
 
 from __future__ import annotations
 
@@ -20,13 +20,14 @@ _SHOWN = 5
 
 @contextmanager
 def merged(databases: Sequence[Path]) -> Iterator[Store]:
-    """All cases of a study from the databases of its shards, in a database that is gone after.
+    """Yield all cases of a study, merged from the databases of its shards into a temporary one.
 
     Raises
     ------
     RollnipError
-        where one is no database of a sweep or in use, they are of different studies or versions,
-        or cases are missing.
+        where a file is no database of a sweep or is in use, the databases belong to different
+        studies
+        or versions, or cases are missing.
     """
     with TemporaryDirectory(prefix="rollnip-") as folder:
         target: Store | None = None
@@ -49,7 +50,7 @@ def merged(databases: Sequence[Path]) -> Iterator[Store]:
 
 
 def take_known(study: Study, store: Store, databases: Sequence[Path]) -> int:
-    """Take over the cases of a study that other studies hold already, by their hash.
+    """Copy those cases of a study that other databases hold already, matched by their hash.
 
     Parameters
     ----------
@@ -60,12 +61,12 @@ def take_known(study: Study, store: Store, databases: Sequence[Path]) -> int:
 
     Returns
     -------
-    How many cases were taken over.
+    The number of cases copied.
 
     Raises
     ------
     RollnipError
-        where one is no database of a sweep, in use, or of another version.
+        where a file is no database of a sweep, is in use, or is of another version.
     """
     taken = 0
     for path in databases:
@@ -82,7 +83,7 @@ def take_known(study: Study, store: Store, databases: Sequence[Path]) -> int:
 
 
 def _hash(study: Study, position: int) -> str:
-    """Hash of a case; empty where it is none."""
+    """Return the hash of a case; empty where the case is invalid."""
     try:
         return case_hash(parse_case(study.case(position)))
     except RollnipError:

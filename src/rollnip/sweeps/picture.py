@@ -1,4 +1,4 @@
-"""A sweep as a picture: curves over one parameter, maps over two, clouds over more."""
+"""Pictures of a sweep: curves over one parameter, maps over two, scatter plots over more."""
 
 from __future__ import annotations
 
@@ -23,17 +23,20 @@ _HEIGHT = 75.0  # mm of a row
 
 
 def plot_sweep(store: Store, *, style: Style = "light") -> Figure:
-    """Draw the results of a sweep over its parameters, as far as they are there.
+    """Draw the results of a sweep over its parameters, as far as cases are finished.
 
-    A row, or a column, for each result: nip width and peak pressure, or the first four that the
-    study names. Over one parameter that changes: curves; over the grid of two: maps with
-    contours; else a cloud of the cases over each of up to four parameters. Cases that were not
-    solved are left out.
+    Each result has its own row or column: nip width and peak pressure, or the first four results
+    that
+    the study names. With one varying parameter they are curves; with two that form a grid, maps
+    with
+    contours; otherwise a scatter plot of the cases over each of up to four parameters. Cases that
+    were
+    not solved are left out.
 
     Raises
     ------
     InvalidInputError
-        where no parameter that changes is a number, or nothing was solved.
+        where no numeric parameter varies, or nothing was solved.
     """
     results = _results(store)
     parameters, values = _read(store, results)
@@ -67,7 +70,7 @@ def plot_sweep(store: Store, *, style: Style = "light") -> Figure:
 
 
 def _results(store: Store) -> tuple[str, ...]:
-    """Return the results to draw: those of the study if few, else the usual ones in the table."""
+    """Return the results to draw: those of the study if few, else the usual ones among them."""
     named = store.about.results
     if len(named) <= _MOST_RESULTS:
         return named
@@ -76,7 +79,7 @@ def _results(store: Store) -> tuple[str, ...]:
 
 
 def _read(store: Store, results: tuple[str, ...]) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Parameters that are numbers, and results; nan where a case was not solved."""
+    """Return the numeric parameters and the results; nan where a case was not solved."""
     about = store.about
     numbers = [i for i, unit in enumerate(about.units) if unit]
     rows = []
@@ -96,7 +99,7 @@ def _head(store: Store, path: str) -> str:
 
 
 def _is_grid(columns: list[Array]) -> bool:
-    """Return whether every value of one column meets every value of the other once."""
+    """Return whether every value of one column occurs with every value of the other just once."""
     one, other = (np.unique(column).size for column in columns)
     pairs = np.unique(np.column_stack(columns), axis=0).shape[0]
     return bool(one * other == pairs == columns[0].size)

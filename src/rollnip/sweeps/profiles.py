@@ -1,6 +1,6 @@
 """The profiles of all cases in one netCDF file, through the extra ``rollnip[netcdf]``.
 
-Cases have different numbers of points: every profile is a (case, point) array filled up with nan.
+Cases have different numbers of points, so every profile is a (case, point) array padded with nan.
 """
 
 from __future__ import annotations
@@ -29,17 +29,19 @@ def check_profiles_target(path: Path) -> None:
 
 
 def write_profiles(store: Store, path: Path) -> None:
-    """Write the profiles of a sweep, all or nothing; a case at a time, whatever their number.
+    """Write the profiles of a sweep to a file, completely or not at all, one case at a time.
 
-    Dimensions are ``case``, all cases of the study in its order, and ``point``. ``x`` is a
-    variable like the others, since every nip has its own; parameters that are numbers are
-    variables over ``case``.
+    Memory use therefore does not depend on the number of cases. The dimensions are ``case``, all
+    cases
+    of the study in its order, and ``point``. ``x`` is a variable like the others, since every nip
+    has
+    its own; numeric parameters are variables over ``case``.
 
     Raises
     ------
     RollnipError
-        where the name does not end in .nc, the extra is missing, no profiles are held or the file
-        cannot be written.
+        where the name does not end in .nc, the extra is missing, the database holds no profiles, or
+        the file cannot be written.
     """
     check_profiles_target(path)
     if next(store.profiles(), None) is None:

@@ -1,4 +1,4 @@
-"""Cases that come one by one, as a search asks for them: none is solved twice."""
+"""Rows of cases that a search asks for one by one; a database keeps any from being solved twice."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ def recalling(
     paths: Sequence[str],
     solve: Callable[[Mapping[str, Any]], Row] = evaluate,
 ) -> Iterator[Recall]:
-    """`evaluate` with a database, for searches that are to go on where they were stopped.
+    """Yield `evaluate` backed by a database, so that an interrupted search can be resumed.
 
-    A case that the database holds, by its hash, is taken from there; any other is solved and
-    committed before the search goes on::
+    A case that the database holds, by its hash, is read from it; any other is solved and committed
+    before the search continues::
 
         with recalling("find.db", case, ["nip.load"]) as evaluate:
             wanted = ("nip.load", "nip_width", "8 mm", "1 N/mm", "20 N/mm")
@@ -34,33 +34,34 @@ def recalling(
     Parameters
     ----------
     database :
-        SQLite file, made where it is not there.
+        SQLite file, created if needed.
     case :
-        tree of the case in which the search changes values.
+        tree of the case in which the search varies values.
     paths :
-        paths of what it changes; their limits and the results wanted may change from run to run.
+        paths of the values varied; their limits and the results wanted may differ from run to run.
     solve :
-        solves what the database does not hold, as `rollnip.sweeps.evaluate` does.
+        solves the cases that the database does not hold, as `rollnip.sweeps.evaluate` does.
 
     Raises
     ------
     RollnipError
-        where the database cannot be opened or written, is in use, or is of another version or
-        of other questions.
+        where the database cannot be opened or written, is in use, or belongs to another version,
+        case
+        or list of paths.
     """
     with Store(Path(database), About.of_search(case, paths, own_version())) as store:
         yield Recall(store, solve)
 
 
 class Recall:
-    """Rows of cases from a database, where it holds them; else solved, and committed to it.
+    """Rows of cases, read from a database where it holds them, else solved and committed to it.
 
     Parameters
     ----------
     store :
         store of a search.
     solve :
-        solves what it does not hold.
+        solves the cases that the store does not hold.
     """
 
     def __init__(self, store: Store, solve: Callable[[Mapping[str, Any]], Row] = evaluate) -> None:
@@ -71,7 +72,7 @@ class Recall:
         self._next = store.size
 
     def __call__(self, tree: Mapping[str, Any]) -> Row:
-        """Return a case's row, from the database or by solving; safe to call from any thread."""
+        """Return a case's row, from the database or by solving it; safe to call from any thread."""
         start = perf_counter()
         one = ready(lambda: tree)
         if one.refusal is not None or one.name is None:

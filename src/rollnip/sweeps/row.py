@@ -1,4 +1,4 @@
-"""The row of numbers of one case; whatever goes wrong with it is a message in the row."""
+"""The row of results of one case; whatever goes wrong with it becomes a message in the row."""
 
 from __future__ import annotations
 
@@ -41,9 +41,11 @@ SCALARS: Mapping[str, str] = {
     **{f"patch.{key}": figure.unit for key, figure in PATCH_FIGURES.items()},
     **{f"patch.error.{key}": figure.unit for key, figure in PATCH_CLAIMED.items()},
 }
-"""Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
-Those of face, heat and sheet are None for a case without them; a case with a patch has those of
-``patch`` alone."""
+"""Unit of every scalar result; ``error.load`` is the key ``load`` of ``error``.
+
+Those of face, heat and sheet are None for a case without that table; a case with a patch has only
+those of ``patch``.
+"""
 
 _FIGURES: Mapping[str, Figure] = {
     **FIGURES,
@@ -53,25 +55,27 @@ _FIGURES: Mapping[str, Figure] = {
 }
 
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
-"""What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
-process that worked on the case ended without a word."""
+"""What became of a case; only the first two have numbers.
+
+"lost" occurs in sweeps alone: the process that worked on the case ended without an answer.
+"""
 
 _NAME = "case"
 
 
 def scalar_label(name: str) -> str:
-    """Return what one of `SCALARS` is called in pictures."""
+    """Return the name of one of `SCALARS` as it stands in pictures."""
     figure = _FIGURES.get(name)
     return name.replace("_", " ") if figure is None else figure.label
 
 
 def scalar_axis(name: str) -> str:
-    """Return the label of an axis for one of `SCALARS`, with its unit, as in tables."""
+    """Return the axis label of one of `SCALARS` with its unit, as in the heads of tables."""
     return axis_label(scalar_label(name), SCALARS[name])
 
 
 def evaluate(tree: Mapping[str, Any]) -> Row:
-    """Solve one case and return its scalars; an error is a message, never an exception.
+    """Solve one case and return its scalar results; an error becomes a message, never an exception.
 
     Parameters
     ----------
@@ -83,41 +87,41 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
     A flat dict, always with the same keys in the same order:
 
     - ``status``: "solved" (and verified), "unverified" (there are numbers, but they were not
-      verified), "refused" (the case is wrong) or "failed" (no solution was found);
-    - ``message``: why, in one line; empty where solved;
+      verified), "refused" (the case is invalid) or "failed" (no solution was found);
+    - ``message``: the reason, in one line; empty where solved;
     - ``converged``: whether the status is "solved";
-    - ``geometry``: the geometry solved with, which may be a simpler one than was wanted;
-      None without a solution;
-    - the names of `SCALARS`: numbers in the units given there, per axial length; None where not
-      finite, not defined or not solved; those of ``heat`` where the case has such a table.
-      ``max_surface_strain`` is the largest strain of either
-      surface in the contact, mean over an element;
-    - ``warnings``: reservations, parted by blanks.
+    - ``geometry``: the geometry model used, which may be simpler than the requested one; None
+      without a solution;
+    - the names of `SCALARS`: numbers in the units given there, per unit axial length; None where a
+      value is not finite, not defined or not solved; those of ``heat`` have values where the case
+      has such a table. ``max_surface_strain`` is the largest strain of either surface in the
+      contact, averaged over an element;
+    - ``warnings``: reservations, separated by blanks.
     """
     return solved(ready(lambda: tree), own_kernels())[0]
 
 
 @cache
 def own_kernels() -> KernelCache:
-    """Return this process's cache of kernels, which neighbouring cases share."""
+    """Return this process's cache of kernels, shared between neighbouring cases."""
     return KernelCache()
 
 
 @cache
 def _own_rows() -> NipRows:
-    """Return this process's plane nips of faces, which neighbouring cases share."""
+    """Return this process's store of plane nips of faces, shared between neighbouring cases."""
     return NipRows(own_kernels())
 
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A case that was read, to be solved.
+    """A case that was read and is ready to be solved.
 
     Attributes
     ----------
-    case : None where it is no case.
-    name : its hash; None where it is no case.
-    refusal : the row that says why it is none; else None.
+    case : the case; None where it is invalid.
+    name : its hash; None where it is invalid.
+    refusal : the row that says why it is invalid; else None.
     """
 
     case: Case | PatchCase | None = None
@@ -126,16 +130,16 @@ class Ready:
 
 
 def ready(make: Callable[[], Mapping[str, Any]]) -> Ready:
-    """Read the case whose tree ``make`` returns; what either raises is a message in a row."""
+    """Read the case whose tree ``make`` returns; an exception becomes a message in a row."""
     try:
         case = any_case(make(), _NAME)
         return Ready(case, patch_hash(case) if isinstance(case, PatchCase) else case_hash(case))
-    except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
+    except Exception as error:  # noqa: BLE001 - one bad case must not end a thousand others
         return Ready(refusal=_row_of(error))
 
 
 def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solution | None]:
-    """Solve a case: its row, as `evaluate` returns it, and its solution where there is one."""
+    """Return the row of a case, as `evaluate` does, and its solution where there is one."""
     if one.case is None:
         assert one.refusal is not None
         return one.refusal, None
@@ -168,7 +172,7 @@ def _row_of(error: Exception) -> Row:
 def scalars(
     solution: Solution, along: FaceSolution | None = None, warm: HeatSolution | None = None
 ) -> Row:
-    """The row of a solution, of its face and of its heat balance, as `evaluate` returns it."""
+    """Return the row of a solution, its face and its heat balance, in the form of `evaluate`."""
     parts = [part for part in (solution, along, warm) if part is not None]
     messages = [part.status for part in parts if not part.converged]
     row: Row = {
@@ -183,7 +187,7 @@ def scalars(
 
 
 def patch_row(solution: PatchSolution) -> Row:
-    """The row of a patch, as `evaluate` returns it."""
+    """Return the row of a patch, in the form of `evaluate`."""
     row: Row = {
         "status": "solved" if solution.converged else "unverified",
         "message": "" if solution.converged else solution.status,
@@ -223,6 +227,6 @@ def _number(value: float | None) -> float | None:
 
 
 def without_solution(status: str, message: str) -> Row:
-    """A row that says what went wrong and holds no numbers."""
+    """Return a row that says what went wrong and holds no numbers."""
     row: Row = {"status": status, "message": message, "converged": False, "geometry": None}
     return row | dict.fromkeys(SCALARS) | {"warnings": ""}

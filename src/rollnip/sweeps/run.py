@@ -1,4 +1,4 @@
-"""The flow of a sweep: which cases are open, solve them, commit each as it ends."""
+"""The flow of a sweep: find the open cases, solve them, commit each as it ends."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from rollnip.sweeps.task import Outcome, Task, given_up, performed
 Report = Callable[[Outcome], None]
 _DIED = "The worker process ended while it solved this case (out of memory?)."
 _ALL_LOST = "the workers were lost; what was finished is kept: run the same again."
-_MOST_CASES = 256  # cases of one task at most
-_AT_ONCE = 0.25  # s, of cases that are read at once where no other process works
-_PATIENCE = 30.0  # s, for the cases that run when the sweep is interrupted
-_LOOK = 0.2  # s, between two looks at whether an interrupt came
+_MOST_CASES = 256  # of one task
+_AT_ONCE = 0.25  # s, duration of the cases read together where this process solves alone
+_PATIENCE = 30.0  # s, for the cases that are running when the sweep is interrupted
+_LOOK = 0.2  # s, between two checks for an interrupt
 
 
 class OpenCases:
-    """The cases of a study that a database does not hold yet, made into tasks on demand.
+    """The cases of a study that a database does not hold yet, turned into tasks on demand.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class OpenCases:
     store :
         store of this study.
     with_profiles :
-        keep the profiles too; cases held without them are open.
+        keep the profiles too; cases held without profiles then count as open.
     """
 
     def __init__(self, study: Study, store: Store, *, with_profiles: bool = False) -> None:
@@ -52,16 +52,16 @@ class OpenCases:
         which, shards = store.about.shard
         self.count = len(store.about.positions) - int(np.count_nonzero(held[which - 1 :: shards]))
         self._positions = (one for one in store.about.positions if not held[one])
-        self._seconds = 0.0  # recent mean time of a case
+        self._seconds = 0.0  # running mean of the time of a case
 
     def learn(self, outcomes: list[Outcome]) -> None:
-        """Update the mean time that a case takes."""
+        """Update the running mean of the time that a case takes."""
         for outcome in outcomes:
             change = 0.1 * (outcome.seconds - self._seconds)
             self._seconds = self._seconds + change if self._seconds else outcome.seconds
 
     def task(self, seconds: float = 0.0) -> Task | None:
-        """The next task, to take some seconds; 0: one case. None where no case is left."""
+        """Return the next task, of about ``seconds`` (0: one case); None where no case is left."""
         count = 1
         if seconds > 0.0 and self._seconds > 0.0:
             count = max(1, min(_MOST_CASES, round(seconds / self._seconds)))
@@ -86,11 +86,11 @@ def run(
     cases :
         the open cases.
     store :
-        takes what is done.
+        receives the outcomes.
     crew :
         workers that solve; None: this process, one case after the other.
     report :
-        is told every outcome once it is committed.
+        called with every outcome once it is committed.
     interrupts :
         interrupts of the caller; None: this call counts its own.
 
@@ -99,8 +99,8 @@ def run(
     RollnipError
         where the store cannot be written, or the crew is lost; what was finished is kept.
     KeyboardInterrupt
-        after Ctrl-C: with a crew once the cases that were running have ended and are committed,
-        or at the second Ctrl-C, or after half a minute; else on the spot.
+        after Ctrl-C. With a crew: once the running cases have ended and are committed, or at the
+        second Ctrl-C, or after half a minute. Without one: immediately.
     """
     if interrupts is None:
         with Interrupts() as interrupts:
@@ -124,7 +124,7 @@ def run(
                 cases.learn([outcome])
                 keep([outcome])
     finally:
-        interrupts.strike_at(0)  # nothing strikes while files are closed
+        interrupts.strike_at(0)  # no KeyboardInterrupt while files are closed
 
 
 @dataclass(slots=True)
@@ -140,12 +140,12 @@ class _Flow:
         running: dict[Future[list[Outcome]], Task] = {}
         try:
             while True:
-                suspects = self._filled(running)
+                suspects = self._fill(running)
                 if not running and not suspects:
                     return
-                suspects += self._collected(running, self._awaited(running, FIRST_COMPLETED))
+                suspects += self._collect(running, self._awaited(running, FIRST_COMPLETED))
                 if suspects:
-                    self._tried_singly(suspects, running)
+                    self._try_singly(suspects, running)
         except KeyboardInterrupt:
             self._finish(running)
             raise
@@ -153,7 +153,7 @@ class _Flow:
     def _awaited(
         self, futures: Iterable[Future[list[Outcome]]], until: str
     ) -> set[Future[list[Outcome]]]:
-        """Return the futures done once one is, or all are. Raises KeyboardInterrupt."""
+        """Wait for one or all futures and return those that are done. Raises KeyboardInterrupt."""
         left = set(futures)
         while True:
             self.interrupts.check()
@@ -162,8 +162,8 @@ class _Flow:
             if not open_ones or (done and until == FIRST_COMPLETED):
                 return done
 
-    def _filled(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
-        """Start tasks; returns the one that a broken crew did not take."""
+    def _fill(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
+        """Start tasks until the crew is busy; return the task that a broken crew did not take."""
         while len(running) < self.crew.in_flight:
             task = self.cases.task(self.crew.chunk_seconds)
             if task is None:
@@ -174,10 +174,10 @@ class _Flow:
                 return [task]
         return []
 
-    def _collected(
+    def _collect(
         self, running: dict[Future[list[Outcome]], Task], done: set[Future[list[Outcome]]]
     ) -> list[Task]:
-        """Keep what is done; returns the tasks that came to nothing."""
+        """Keep the outcomes of finished futures; return the tasks that gave none."""
         failed = []
         for future in done:
             task = running.pop(future)
@@ -192,15 +192,13 @@ class _Flow:
             self.keep(outcomes)
         return failed
 
-    def _tried_singly(
-        self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]
-    ) -> None:
+    def _try_singly(self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]) -> None:
         """Run the suspects of a crash one case at a time, to find the one that kills its worker."""
-        suspects += self._collected(running, self._awaited(running, ALL_COMPLETED))
+        suspects += self._collect(running, self._awaited(running, ALL_COMPLETED))
         for task in (single for suspect in suspects for single in suspect.split()):
-            self.keep(self._alone(task))
+            self.keep(self._run_alone(task))
 
-    def _alone(self, task: Task) -> list[Outcome]:
+    def _run_alone(self, task: Task) -> list[Outcome]:
         try:
             future = self.crew.submit(task)
         except BrokenExecutor:
@@ -217,12 +215,12 @@ class _Flow:
             return given_up(task, f"The worker returned nothing: {type(error).__name__}: {error}")
 
     def _finish(self, running: dict[Future[list[Outcome]], Task]) -> None:
-        """End after an interrupt: start nothing new, keep what ends soon, give up the rest."""
+        """End after an interrupt: start nothing new, keep what ends soon, abandon the rest."""
         left = {future for future in running if not future.cancel()}
         end = monotonic() + _PATIENCE
         done, late = wait(left, timeout=0.0)
         while late and self.interrupts.count < 2 and monotonic() < end:
             done, late = wait(left, timeout=_LOOK)
-        self._collected(running, {one for one in done if not one.cancelled()})
+        self._collect(running, {one for one in done if not one.cancelled()})
         if late:
             self.crew.abandon()

@@ -1,4 +1,4 @@
-"""Values along an axis: ranges, and samples of several ranges at once."""
+"""Values along an axis of a study: ranges, and joint samples of several ranges."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """A range from start to stop in base units, by equal steps or by equal ratios ("log")."""
+    """A range from start to stop in base units, with equal steps or, if "log", equal ratios."""
 
     start: float
     stop: float
@@ -31,12 +31,12 @@ class Range:
             raise InvalidInputError(f"`stop` must differ from `start`, got {self.stop:g} for both.")
 
     def steps(self, count: int) -> Array:
-        """``count`` values with both ends, (count,)."""
+        """Return ``count`` values that include both ends, (count,)."""
         space = np.geomspace if self.spacing == "log" else np.linspace
         return np.asarray(space(self.start, self.stop, count), dtype=np.float64)
 
     def at(self, share: Array) -> Array:
-        """Values at shares between 0 and 1 of the range, of the same shape."""
+        """Return the values at fractions between 0 and 1 of the range, of the same shape."""
         if self.spacing == "log":
             return np.asarray(self.start * (self.stop / self.start) ** share)
         return np.asarray(self.start + (self.stop - self.start) * share)
@@ -45,14 +45,14 @@ class Range:
 def samples(
     ranges: list[Range], method: Literal["latin-hypercube", "sobol"], count: int, seed: int
 ) -> tuple[Array, ...]:
-    """Sample all ranges together; the same seed gives the same samples.
+    """Sample all ranges jointly; the same seed gives the same samples.
 
     Parameters
     ----------
     ranges :
         one for each parameter.
     method :
-        "latin-hypercube", or "sobol": scrambled, ``count`` must then be a power of 2.
+        "latin-hypercube", or "sobol" (scrambled), which needs a power of 2 as ``count``.
     count :
         number of samples.
     seed :
@@ -60,12 +60,12 @@ def samples(
 
     Returns
     -------
-    For each range its (count,) values.
+    The (count,) values of each range.
 
     Raises
     ------
     InvalidInputError
-        where the count is none that the method can use.
+        where the method cannot use this count.
     """
     if count < 1:
         raise InvalidInputError(f"`count` must be 1 or more, got {count}.")
@@ -75,7 +75,7 @@ def samples(
             f'`count` must be a power of 2 where `method` is "sobol": {below} or {2 * below}, '
             f"got {count}."
         )
-    from scipy.stats import qmc  # takes longer to import than all the rest of a worker
+    from scipy.stats import qmc  # takes longer to import than everything else in a worker
 
     generator = np.random.default_rng(seed)
     sampler = qmc.Sobol if method == "sobol" else qmc.LatinHypercube

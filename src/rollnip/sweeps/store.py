@@ -1,9 +1,9 @@
 """The database of a sweep: SQLite, one writer, each case committed as it ends.
 
-A process that is killed at any moment leaves a database that holds every case committed before;
-write-ahead logging sees to that. The log, ``results.db-wal``, is part of the database until it is
-closed; every ten seconds, and at the end, its cases are moved into ``results.db`` itself. Nothing
-but this module knows the tables in it.
+A process killed at any moment leaves a database that holds every case committed before, thanks to
+write-ahead logging. The log, ``results.db-wal``, is part of the database until it is closed; every
+ten seconds, and at the end, its cases are moved into ``results.db`` itself. Only this module knows
+the tables.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from rollnip.sweeps.study import Study, case_digest
 from rollnip.sweeps.task import Outcome
 
 FORMAT = 2
-_LOG_SECONDS = 10.0  # longest time that cases stand in the log alone
+_LOG_SECONDS = 10.0  # longest time that cases are in the log alone
 _APPLICATION = 0x726E6970  # marks the file as one of ours
 _TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
 _NAMES = ("position", *_TEXTS, *SCALARS, "seconds")
@@ -58,11 +58,11 @@ class About:
 
     Attributes
     ----------
-    version : version of rollnip and of its code, as `own_version` has it.
+    version : version of rollnip and of its code, as `own_version` returns it.
     study : digest of the study.
     title, count : title and number of cases; 0 for a search, whose cases come one by one.
     paths, units : paths and units of the parameters.
-    results, profiles : wanted results and profiles.
+    results, profiles : names of the results and profiles wanted.
     shard : (which, of how many), counted from 1.
     case : case of the study, as JSON; empty for a search.
     """
@@ -96,7 +96,7 @@ class About:
 
     @classmethod
     def of_search(cls, case: Mapping[str, Any], paths: Sequence[str], version: str) -> About:
-        """Return the description of a search's database: its case and the values that change."""
+        """Return the description of a search's database: its case and the paths that it varies."""
         return cls(
             version=version,
             study=case_digest(case, "search", *paths),
@@ -110,7 +110,7 @@ class About:
 
     @property
     def positions(self) -> range:
-        """Positions of its cases in the study."""
+        """Positions in the study of the cases of this shard."""
         which, shards = self.shard
         return range(which - 1, self.count, shards)
 
@@ -123,43 +123,43 @@ _ABOUT = {
 
 
 class Store:
-    """A database of a sweep: this process alone writes it, others may read it meanwhile.
+    """A database of a sweep, written by this process alone; others may read it meanwhile.
 
     Parameters
     ----------
     path :
-        path of the file, which is made where it is not there; None: in memory.
+        path of the file, created if needed; None: in memory.
     about :
-        whose cases it is to hold; None: it is only read, whatever study it holds.
+        description of the cases that it is to hold; None: read only, whatever study it holds.
 
     Raises
     ------
     RollnipError
-        where it cannot be opened, is written by another process, is no database of a sweep, or is
-        of another version or another study.
+        where the file cannot be opened, is being written by another process, is no database of a
+        sweep, or is of another version or another study.
     """
 
     def __init__(self, path: Path | None, about: About | None = None) -> None:
         self.name = "the database" if path is None else str(path)
         self.is_in_memory = path is None
         self._writer: Writer | None = None
-        self._moved = monotonic()
+        self._emptied = monotonic()
         if path is not None:
-            reading(path)  # it holds what was solved: no table may take its place
+            reading(path)  # it holds solved cases: no table may overwrite it
         if about is None and path is not None:
             self._base = open_to_read(path)
         else:
             self._base = open_to_write(path)
         try:
-            with self._spoken():
+            with self._plain_errors():
                 self._require_ours(must_be_there=about is None)
                 if about is not None:
                     if path is not None:
                         self._writer = Writer(path)
                     self._prepare()
                 require_schema(self._base, self.name, _COLUMNS)
-            self.about = self._claimed(about)
-            with self._spoken():
+            self.about = self._matching_about(about)
+            with self._plain_errors():
                 require_sound_rows(self._base, self.name, self.about.count, len(self.about.paths))
         except BaseException:
             self.close()
@@ -174,24 +174,24 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Close the file; what was written stays, and stands in the database itself."""
+        """Close the file; all that was written is then in the database itself, not in the log."""
         with suppress(sqlite3.Error):
-            self._move("TRUNCATE")
+            self._empty_log("TRUNCATE")
         self._base.close()
         if self._writer is not None:
             self._writer.close()
 
     def write(self, outcome: Outcome) -> None:
-        """Commit one case. Raises RollnipError where the disk does not take it."""
-        with self._spoken():
+        """Commit one case. Raises RollnipError where the disk cannot take it."""
+        with self._plain_errors():
             if outcome.profiles is None:
                 self._write(outcome)  # one statement is a transaction of its own
             else:
                 with self._transaction():
                     self._write(outcome)
                     self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
-            if monotonic() - self._moved > _LOG_SECONDS:
-                self._move("PASSIVE")
+            if monotonic() - self._emptied > _LOG_SECONDS:
+                self._empty_log("PASSIVE")
 
     def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
         """Return a mask (count,) of the cases that need not be solved again."""
@@ -202,21 +202,21 @@ class Store:
                 " AND (status NOT IN ('solved', 'unverified')"
                 " OR position IN (SELECT position FROM profiles))"
             )
-        with self._spoken():
+        with self._plain_errors():
             for (position,) in self._base.execute(query):
                 found[position] = True
         return found
 
     @property
     def size(self) -> int:
-        """The number of cases in the database."""
+        """Number of cases in the database."""
         return sum(self.tally().values())
 
     def row(self, position: int) -> Row:
         """Return the row of one case, as `rollnip.sweeps.evaluate` returned it."""
         names = ("status", "message", "status", "geometry", *SCALARS, "warnings")
         wanted = ", ".join(f'"{name}"' for name in names)
-        with self._spoken():
+        with self._plain_errors():
             found = self._base.execute(
                 f"SELECT {wanted} FROM cases WHERE position = ?", (position,)
             ).fetchone()
@@ -226,42 +226,42 @@ class Store:
 
     def tally(self) -> dict[str, int]:
         """Return the number of cases by status."""
-        with self._spoken():
+        with self._plain_errors():
             return dict(self._base.execute("SELECT status, count(*) FROM cases GROUP BY status"))
 
     def seconds_each(self) -> float | None:
-        """Mean time that a case took [s]; None without any."""
-        with self._spoken():
+        """Return the mean time that a case took [s]; None without any case."""
+        with self._plain_errors():
             query = "SELECT avg(seconds) FROM cases WHERE status != 'lost'"
             found: float | None = self._base.execute(query).fetchone()[0]
         return found
 
     def rows(self, names: Sequence[str]) -> Iterator[tuple[Any, ...]]:
-        """Yield the cases in the order of the study, as tuples of the columns asked for."""
+        """Yield the requested columns of each case as a tuple, in the order of the study."""
         wanted = ", ".join(f'"{name}"' for name in names)
-        with self._spoken():
+        with self._plain_errors():
             yield from self._base.execute(f"SELECT {wanted} FROM cases ORDER BY position")
 
     def rows_not_solved(self) -> Iterator[tuple[int, str]]:
-        """Position and message of the cases without a verified solution."""
+        """Yield position and message of the cases without a verified solution."""
         query = "SELECT position, message FROM cases WHERE status != 'solved' ORDER BY position"
-        with self._spoken():
+        with self._plain_errors():
             yield from self._base.execute(query)
 
     def profiles(self) -> Iterator[tuple[int, bytes]]:
-        """Position and profiles of the cases that have them, in the order of the study."""
-        with self._spoken():
+        """Yield position and profiles of the cases that have them, in the order of the study."""
+        with self._plain_errors():
             yield from self._base.execute("SELECT position, data FROM profiles ORDER BY position")
 
     def known(self) -> dict[str, int]:
-        """Position by hash of the cases that need not be solved again, in whatever study."""
+        """Return the position by hash of all cases that need not be solved again, of any study."""
         query = "SELECT hash, position FROM cases WHERE hash IS NOT NULL AND status != 'lost'"
-        with self._spoken():
+        with self._plain_errors():
             return dict(self._base.execute(query))
 
     def adopt(self, other: Store, there: int, position: int, values: Sequence[float | str]) -> None:
-        """Take over one case, at ``there`` in the other study, at ``position`` in this one."""
-        with other._spoken():
+        """Copy one case from position ``there`` of another database to ``position`` of this one."""
+        with other._plain_errors():
             row = other._base.execute(
                 f"SELECT {_QUOTED} FROM cases WHERE position = ?", (there,)
             ).fetchone()
@@ -270,14 +270,14 @@ class Store:
             ).fetchone()
         found = dict(zip(_NAMES, row, strict=True))
         found |= {"position": position, "parameters": json.dumps(values)}
-        with self._spoken(), self._transaction():
+        with self._plain_errors(), self._transaction():
             self._base.execute(_INSERT, list(found.values()))
             if profiles is not None:
                 self._base.execute(_INSERT_PROFILES, (position, *profiles))
 
     def take(self, other: Store) -> None:
-        """Take over all cases of another database of the same study."""
-        with self._spoken(), self._transaction():
+        """Copy all cases from another database of the same study."""
+        with self._plain_errors(), self._transaction():
             self._base.executemany(_INSERT, other.rows(_NAMES))
             self._base.executemany(_INSERT_PROFILES, other.profiles())
 
@@ -291,9 +291,9 @@ class Store:
             )
 
     def _prepare(self) -> None:
-        """Make the tables where the file is empty."""
+        """Create the tables where the file is empty."""
         self._base.execute("PRAGMA journal_mode = WAL")
-        # a commit then waits for no disk; only loss of power can undo the last ones
+        # a commit then does not wait for the disk; only a power failure can undo the last ones
         self._base.execute("PRAGMA synchronous = NORMAL")
         self._base.execute("BEGIN IMMEDIATE")
         if not self._base.execute("PRAGMA schema_version").fetchone()[0]:
@@ -302,15 +302,15 @@ class Store:
                 self._base.execute(statement)
         self._base.execute("COMMIT")
 
-    def _move(self, how: str) -> None:
-        """Move what is in the log into the database: a copy of the database alone then has it."""
+    def _empty_log(self, how: str) -> None:
+        """Move the log into the database file, so that a copy of that file alone has all cases."""
         if self._writer is not None:
             self._base.execute(f"PRAGMA wal_checkpoint({how})")
-        self._moved = monotonic()
+        self._emptied = monotonic()
 
-    def _claimed(self, about: About | None) -> About:
-        """Return the description, written where it is new; raises where it is another study's."""
-        found = self._said()
+    def _matching_about(self, about: About | None) -> About:
+        """Return the description, writing it if new; raise where the file is another study's."""
+        found = self._stored_about()
         if about is None:
             if found is None:
                 raise RollnipError(f"{self.name}: holds no study yet.")
@@ -319,14 +319,14 @@ class Store:
             _require_same(self.name, found, about)
         if found == about:
             return about
-        with self._spoken(), self._transaction():
+        with self._plain_errors(), self._transaction():
             self._base.execute("DELETE FROM about")
             text = json.dumps({"format": FORMAT, **asdict(about)})
             self._base.execute("INSERT INTO about VALUES (?)", (text,))
         return about
 
-    def _said(self) -> About | None:
-        with self._spoken():
+    def _stored_about(self) -> About | None:
+        with self._plain_errors():
             rows = self._base.execute("SELECT value FROM about").fetchall()
         if not rows:
             return None
@@ -344,7 +344,7 @@ class Store:
 
     @contextmanager
     def snapshot(self) -> Iterator[None]:
-        """Read one state of the database throughout, whatever another process writes meanwhile."""
+        """Read one consistent state of the database while another process may write to it."""
         self._base.execute("BEGIN")
         try:
             yield
@@ -363,8 +363,8 @@ class Store:
             raise
 
     @contextmanager
-    def _spoken(self) -> Iterator[None]:
-        """Turn what SQLite says into one clear sentence."""
+    def _plain_errors(self) -> Iterator[None]:
+        """Turn an SQLite error into one clear sentence."""
         try:
             yield
         except sqlite3.Error as error:

@@ -1,7 +1,7 @@
-"""A study: a case, parameters by path, and which cases they make; no case is made before its turn.
+"""A study: a case, parameters given by path, and the cases they make, each built only when needed.
 
 The cases are the product of the axes, the last axis running fastest. An axis holds one parameter,
-or several that step together.
+or several that change together.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _DIGITS = 16
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Axis:
-    """Parameters that step together.
+    """Parameters that change together.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Axis:
         return len(self.columns[0])
 
     def values(self, index: int) -> list[Value]:
-        """The value of each parameter at one step; texts are JSON."""
+        """Return the value of each parameter at one step; texts are JSON."""
         picked = (column[index] for column in self.columns)
         return [one if isinstance(one, str) else float(one) for one in picked]
 
@@ -65,11 +65,11 @@ class Study:
 
     Attributes
     ----------
-    title : for people.
+    title : title, for people.
     tree : the case, as the tree of a case file.
-    axes : the first runs slowest.
+    axes : the axes; the first one runs slowest.
     results : names of `SCALARS` that go into the table.
-    profiles : names of the profiles that are kept; none: no profiles.
+    profiles : names of the profiles to keep; empty: none.
     source : name of the file, for messages.
     """
 
@@ -96,7 +96,10 @@ class Study:
         return tuple(unit for axis in self.axes for unit in axis.units)
 
     def values(self, position: int) -> tuple[Value, ...]:
-        """The parameters of one case, 0 <= position < count: numbers in base units, JSON texts."""
+        """Return the parameters of one case: numbers in base units, or JSON texts.
+
+        Positions run from 0 to count - 1.
+        """
         steps = []
         for axis in reversed(self.axes):
             position, step = divmod(position, len(axis))
@@ -104,7 +107,7 @@ class Study:
         return tuple(value for values in reversed(steps) for value in values)
 
     def case(self, position: int) -> dict[str, Any]:
-        """The tree of one case, only to be read.
+        """Return the tree of one case, which must not be modified.
 
         Raises InvalidInputError where a path leads nowhere.
         """
@@ -112,25 +115,25 @@ class Study:
 
     @cached_property
     def digest(self) -> str:
-        """The hash of a study: 16 hexadecimal digits of the case and the axes.
+        """Hash of the study: 16 hexadecimal digits computed from the case and the axes.
 
-        Neither the titles nor which results and profiles are wanted are part of it.
+        Neither the titles nor the results and profiles wanted are part of it.
         """
-        digest = _fed_with(self.tree)
+        digest = _digest_of(self.tree)
         for axis in self.axes:
             axis.feed(digest)
         return str(digest.hexdigest()[:_DIGITS])
 
 
 def case_digest(case: Mapping[str, Any], *words: str) -> str:
-    """Return the hash of a case, without its title, and of words that say its purpose."""
-    digest = _fed_with(case)
+    """Return the hash of a case without its title, and of words that state its purpose."""
+    digest = _digest_of(case)
     digest.update(json.dumps(words).encode())
     return str(digest.hexdigest()[:_DIGITS])
 
 
-def _fed_with(case: Mapping[str, Any]) -> Any:
-    """A hash that holds a case; its title does not count."""
+def _digest_of(case: Mapping[str, Any]) -> Any:
+    """Return a hash object that has been fed a case without its title."""
     tree = {key: value for key, value in case.items() if key != "title"}
     return sha256(json.dumps(tree, sort_keys=True, default=str).encode())
 
@@ -138,6 +141,6 @@ def _fed_with(case: Mapping[str, Any]) -> Any:
 def case_with(
     tree: Mapping[str, Any], paths: Sequence[str], values: Sequence[Value]
 ) -> dict[str, Any]:
-    """The case with other values at some paths; texts are JSON. It is only to be read."""
+    """Return the case with other values at some paths (texts are JSON); it must not be modified."""
     read = (json.loads(value) if isinstance(value, str) else value for value in values)
     return with_shared(tree, dict(zip(paths, read, strict=True)))

@@ -1,4 +1,4 @@
-"""The reader of study files: paths, values and units checked, every fault one clear line."""
+"""The reader of study files: paths, values and units are checked, every fault is one clear line."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ _EITHER = (
 def read_study(study: str | Path | Mapping[str, Any]) -> Study:
     """Read a study file, TOML or JSON, or the tree that such a file holds.
 
-    Names of other files in it count from the folder of the study, or from the working directory
+    Names of other files in it are relative to the folder of the study, or to the working directory
     where ``study`` is a tree.
 
     Raises
     ------
     CaseFileError
-        where a file cannot be read or does not describe a study; with the name of the file and
-        the path of the key.
+        where a file cannot be read or does not describe a study; the message names the file and the
+        path of the key.
     InvalidInputError
-        where a table of designs is wrong, with file, line and column.
+        where a table of designs is wrong; the message names the file, line and column.
     """
     if isinstance(study, Mapping):
         return _StudyReader(plain_tree(study), "study", Path()).study()
@@ -74,15 +74,15 @@ class _StudyReader:
         return study
 
     def _profiles(self) -> tuple[str, ...]:
-        """Return the distributions that are wanted; a patch has none over x alone."""
+        """Return the names of the profiles wanted; a patch has no profiles over x alone."""
         if "patch" in self.case and self.table.profiles:
             raise self._wrong("profiles: must be left out where the case has a table [patch].")
         return self._names("profiles", self.table.profiles or [], PROFILES)
 
     def _scalars(self) -> dict[str, str]:
-        """Return the results that cases have: of face, heat and sheet where there is one.
+        """Return the results that the cases have; those of face, heat and sheet need that table.
 
-        A case with a patch has those of its patch alone.
+        A case with a patch has only the results of the patch.
         """
         if "patch" in self.case:
             return {name: unit for name, unit in SCALARS.items() if name.startswith("patch.")}
@@ -216,7 +216,7 @@ class _StudyReader:
         return Axis(paths, tuple(_unit(dimension) for dimension in dimensions), columns)
 
     def _from_table(self, parameter: ParameterTable) -> Axis:
-        """The columns of a table of designs step together, one row after the other."""
+        """Return an axis whose parameters, the columns of a table of designs, change row by row."""
         table = read_columns(self.folder / str(parameter.table), sheet=parameter.sheet)
         paths, units, columns = table.names, [], []
         for path in paths:
@@ -226,7 +226,7 @@ class _StudyReader:
         return Axis(paths, tuple(units), tuple(columns))
 
     def _joined(self, name: str, axes: list[Axis]) -> Axis:
-        """One axis from those of a group."""
+        """Return one axis made from those of a group."""
         lengths = [len(axis) for axis in axes]
         if len(set(lengths)) > 1:
             raise self._wrong(
@@ -240,7 +240,7 @@ class _StudyReader:
         )
 
     def _check_paths(self, paths: list[str]) -> None:
-        """Check that no parameter sets the same value as another, or a part of it."""
+        """Check that no two parameters set the same value, or one a part of the other."""
         for path in paths:
             if paths.count(path) > 1:
                 raise self._wrong(f"parameters: {path} must not be there twice.")
@@ -255,7 +255,10 @@ class _StudyReader:
                 )
 
     def _check_cases(self, study: Study) -> None:
-        """A case that is wrong at both ends of the study is wrong itself: say so before it runs."""
+        """Raise where a path leads nowhere, or the first and the last case are both invalid.
+
+        In the latter instance the case itself is at fault, not the value of a parameter.
+        """
         refused = []
         for position in (0, study.count - 1):
             try:
@@ -313,7 +316,7 @@ def _has(parameter: ParameterTable, name: str) -> bool:
 
 
 def _unit(dimension: Dimension | None) -> str:
-    """Base unit; "1" for ratios, empty for what is no quantity."""
+    """Return the base unit; "1" for ratios, empty where the value is no quantity."""
     return "" if dimension is None else base_unit(dimension) or "1"
 
 

@@ -1,4 +1,4 @@
-"""One call for a whole sweep: read the study, solve what is open, return the table."""
+"""A whole sweep in one call: read the study, solve the open cases, return the table."""
 
 from __future__ import annotations
 
@@ -37,26 +37,28 @@ def sweep(
     study :
         a study, its file, or the tree that such a file holds.
     database :
-        SQLite file that takes each case as it ends; a sweep that was stopped goes on from there,
-        a finished one returns at once. None: in memory.
+        SQLite file to which each case is committed as it ends; an interrupted sweep continues from
+        there, a finished one returns at once. None: in memory.
     known :
-        databases of other sweeps: cases that they hold, by their hash, are taken from there.
+        databases of other sweeps; cases that they hold, matched by hash, are copied from there.
     out :
-        write the table too: name.csv, or name.parquet with the extra ``rollnip[tables]``.
+        write the table too: name.csv, name.xlsx, or name.parquet with the extra
+        ``rollnip[tables]``.
     workers :
-        processes of this machine, or tasks that ``executor`` can run at a time; None: one for
-        each core. 1 without an executor: in this process. In a script, more than one needs
+        number of processes of this machine, or of tasks that ``executor`` can run at a time; None:
+        one for each core. 1 without an executor: in this process. In a script, more than one needs
         ``if __name__ == "__main__":`` around the call.
     executor :
-        any concurrent.futures.Executor, such as ``client.get_executor()`` of Dask; its workers
-        need rollnip of the same version.
+        any concurrent.futures.Executor, such as ``client.get_executor()`` of Dask; its workers need
+        the same version of rollnip.
     report :
         called with each `Outcome` once it is committed.
 
     Returns
     -------
-    `Table` with a row for each case in the order of the study, the same for any number of
-    workers. A case that fails is a row with its message.
+    `Table` with a row for each case in the order of the study, the same for any number of workers.
+    A
+    case that fails has a row with its message.
 
     Raises
     ------
@@ -66,9 +68,10 @@ def sweep(
         where a file cannot be written or is of another study, or the workers are lost; what was
         finished is in the database.
     KeyboardInterrupt
-        after Ctrl-C, once the cases that workers are solving have ended and are in the database;
-        at once at the second, or without workers. Ctrl-C in the main thread has a handler of this
-        function until it returns; signals and the environment are else left alone.
+        after Ctrl-C, once the cases being solved by workers have ended and are in the database;
+        immediately at the second Ctrl-C, or without workers. In the main thread, this function
+        handles
+        Ctrl-C until it returns; other signals and the environment are left alone.
     """
     count = _workers(workers)
     target = None if out is None else Path(out)

@@ -1,4 +1,4 @@
-"""The table of results: in memory, as CSV, as Parquet; rows in the order of the study.
+"""The table of results, in memory or as a CSV, Parquet or Excel file, in the order of the study.
 
 All are made from the database alone, so that they are the same however the sweep was run.
 """
@@ -43,11 +43,12 @@ class Table(Framed):
     ----------
     columns :
         by name: ``case`` (position in the study, from 0), the paths of the parameters, ``status``,
-        ``message``, ``geometry``, ``converged`` (1 or 0), the results, ``warnings`` and ``hash``.
-        Numbers are float arrays in which nan is what is not there, texts are tuples.
-        The last are ``tolerance`` and ``version``.
+        ``message``, ``geometry``, ``converged`` (1 or 0), the results, ``warnings``, ``hash``,
+        ``tolerance`` and ``version``. Numbers are float arrays with nan for missing values, texts
+        are
+        tuples.
     units :
-        units of the columns of numbers, "1" where there is none.
+        units of the numeric columns, "1" where there is none.
     case :
         case of the study, as the tree of a case file; the parameters change it from row to row.
     """
@@ -57,7 +58,7 @@ class Table(Framed):
     case: Mapping[str, Any] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Any:
-        """One column. Raises InvalidInputError where there is none of that name."""
+        """Return one column. Raises InvalidInputError where there is none of that name."""
         if name not in self.columns:
             raise InvalidInputError(
                 f'`name` must be one of {", ".join(self.columns)}, got "{name}".'
@@ -65,7 +66,7 @@ class Table(Framed):
         return self.columns[name]
 
     def __len__(self) -> int:
-        """Number of cases."""
+        """Return the number of cases."""
         return len(self.columns["case"])
 
     def __repr__(self) -> str:
@@ -77,14 +78,14 @@ class Table(Framed):
 
 
 def check_table_target(path: Path) -> None:
-    """Raise RollnipError where a table could not be written to ``path``; costs next to nothing."""
+    """Raise RollnipError where a table could not be written to ``path``, before a sweep."""
     check_target(path, SUFFIXES)
     if path.suffix.lower() == ".parquet":
         require_extra("tables", f"{path}: Parquet", "choose a name that ends in .csv")
 
 
 def read_table(store: Store) -> Table:
-    """All results of a sweep in memory."""
+    """Return all results of a sweep, in memory."""
     heads = _columns(store.about)
     rows = list(_rows(store))
     found = zip(*rows, strict=True) if rows else ((),) * len(heads)
@@ -101,21 +102,24 @@ def read_table(store: Store) -> Table:
 
 
 def write_table(store: Store, path: Path) -> None:
-    """Write the results to a file, all or nothing; a row at a time, whatever their number.
+    """Write the results to a file, completely or not at all, one row at a time.
+
+    Memory use therefore does not depend on the number of cases.
 
     Parameters
     ----------
     store :
         store of the sweep.
     path :
-        ends in .csv, .parquet (with the extra ``rollnip[tables]``) or .xlsx. Heads carry the unit:
-        ``nip_width [mm]``; what is not there is empty.
+        ends in .csv, .parquet (with the extra ``rollnip[tables]``) or .xlsx. Column heads carry the
+        unit: ``nip_width [mm]``; missing values are empty.
 
     Raises
     ------
     RollnipError
-        where the ending is another, the extra is missing, a sheet has too few rows or the file
-        cannot be written.
+        where the name ends otherwise, the extra is missing, there are more cases than rows in an
+        Excel
+        sheet, or the file cannot be written.
     """
     check_table_target(path)
     if path.suffix.lower() == ".csv":
@@ -132,7 +136,7 @@ def write_table(store: Store, path: Path) -> None:
 
 
 def _columns(about: About) -> dict[str, str]:
-    """Unit of each column, empty for texts."""
+    """Return the unit of each column, empty for texts."""
     columns = {"case": "1"} | dict(zip(about.paths, about.units, strict=True))
     columns |= dict.fromkeys(_TEXTS, _TEXT) | {"converged": "1"}
     columns |= {name: SCALARS[name] for name in about.results}
@@ -159,7 +163,7 @@ def _rows(store: Store) -> Iterator[list[Any]]:
 
 
 def _tolerance(about: About) -> float | None:
-    """The tolerance of the case of a study; None where the case is wrong there."""
+    """Return the tolerance in the study's case; None where it is invalid."""
     solver = json.loads(about.case or "{}").get("solver")
     given = solver.get("tolerance") if isinstance(solver, dict) else None
     if given is None:
@@ -171,7 +175,7 @@ def _tolerance(about: About) -> float | None:
 
 
 def _shown(value: Any, unit: str) -> Any:
-    """A parameter as it stands in the table: texts are JSON in the database."""
+    """Return a parameter as it stands in the table; in the database, texts are JSON."""
     if unit != _TEXT:
         return value
     read = json.loads(value)
@@ -201,6 +205,6 @@ def _write_parquet(store: Store, file: Path) -> None:
         about = store.about
         frame.sink_parquet(file, metadata={"rollnip": about.version, "case": about.case})
     except pl.exceptions.PolarsError as error:
-        raise OSError(str(error)) from None  # as any other failure to write
+        raise OSError(str(error)) from None  # like any other failure to write
     finally:
         between.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Tasks of a worker: solve one case after the other and hand back what is to be kept."""
+"""Tasks of a worker: solve one case after the other and return what is to be kept."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Task:
     ----------
     tree : the case of the study.
     paths : paths of the parameters.
-    cases : position and values of the parameters of each case.
+    cases : position and parameter values of each case.
     with_profiles : whether profiles are kept.
     """
 
@@ -34,7 +34,7 @@ class Task:
     with_profiles: bool = False
 
     def split(self) -> list[Task]:
-        """Return the cases as tasks of one case each."""
+        """Return a task for each case."""
         return [Task(self.tree, self.paths, (one,), self.with_profiles) for one in self.cases]
 
 
@@ -46,10 +46,10 @@ class Outcome:
     ----------
     position : position of the case in the study.
     values : values of its parameters.
-    case : its hash, as `rollnip.io.case_hash` has it; None where it is no case.
+    case : its hash, as `rollnip.io.case_hash` returns it; None where the case is invalid.
     row : row as `evaluate` returns it.
     seconds : time that it took [s].
-    profiles : all profiles, 8 bytes a number, one after the other; None where not kept.
+    profiles : all profiles, one after the other, 8 bytes per number; None where not kept.
     """
 
     position: int
@@ -61,15 +61,16 @@ class Outcome:
 
 
 def perform(task: Task) -> list[Outcome]:
-    """Solve the cases of a task; a case that goes wrong is a row with its message."""
+    """Solve the cases of a task; a case that fails has a row with its message."""
     return list(performed(task))
 
 
 def performed(task: Task) -> Iterator[Outcome]:
     """Solve the cases of a task and yield each outcome as it is ready.
 
-    All cases are read before the first is solved: the code that reads then stays in the core's
-    caches, and reading takes a third of the time.
+    All cases are read before the first is solved: the code that reads then stays in the caches of
+    the
+    processor core, and reading takes a third of the time.
     """
     start = perf_counter()
     read = [ready(partial(case_with, task.tree, task.paths, values)) for _, values in task.cases]
@@ -85,13 +86,13 @@ def performed(task: Task) -> Iterator[Outcome]:
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:
-    """Return the outcomes of a task whose worker died."""
+    """Return the outcomes of a task whose worker died or returned nothing."""
     row = without_solution("lost", why)
     return [Outcome(position, values, None, row, 0.0) for position, values in task.cases]
 
 
 def _profiles(solution: Solution) -> bytes:
-    """The profiles in the order of `PROFILES`; those not defined are nan."""
+    """Return the profiles in the order of `PROFILES`; nan where one is not defined."""
     profiles = solution.profiles
     nothing = np.full(profiles.x.size, np.nan)
     found = (getattr(profiles, name) for name in PROFILES)

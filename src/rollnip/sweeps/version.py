@@ -1,4 +1,4 @@
-"""The version of the code that solves: only rows of the same code belong together."""
+"""The version of the code that solves: only rows computed by the same code may be combined."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-# What only asks for solutions or shows them; all the rest of the package decides the numbers.
+# Rooms that only ask for solutions or show them; the rest of the package determines the numbers.
 _ASKS = {"design", "identification", "dma", "lda", "paper", "verification"}
 _SHOWS = {"cli", "web", "plots"}
 BESIDE = frozenset(_ASKS | _SHOWS)
@@ -17,9 +17,9 @@ _DIGITS = 10
 
 @cache
 def own_version() -> str:
-    """The version of rollnip in this process and the fingerprint of its code.
+    """Return the version of rollnip in this process with the fingerprint of its code.
 
-    Such as "0.1.0 (code 3f9a1c20d4)"; "0.1.0" where the sources cannot be read.
+    For example "0.1.0 (code 3f9a1c20d4)"; "0.1.0" where the sources cannot be read.
     """
     release = version("rollnip")
     try:
@@ -30,10 +30,10 @@ def own_version() -> str:
 
 
 def fingerprint(package: Path) -> str:
-    """Return a hash of the sources that decide the numbers; empty where there are none.
+    """Return a hash of the sources that determine the numbers; empty where there are none.
 
-    The hash is the same on every system, whatever the line endings. Raises OSError where a
-    source cannot be read.
+    The hash is the same on every system, whatever the line endings. Raises OSError where a source
+    cannot be read.
     """
     digest = sha256()
     names = sorted(path.relative_to(package).as_posix() for path in package.rglob("*.py"))

@@ -1,7 +1,7 @@
-"""One table as an Excel workbook (.xlsx), row by row, whatever their number.
+"""A table written as an Excel workbook (.xlsx), row by row, whatever the number of rows.
 
-The format is that of ECMA-376, Office Open XML: a zip archive with one sheet; texts stand in their
-cells ("inline strings"), so that nothing need be kept in memory. Texts are never formulas.
+The format is that of ECMA-376, Office Open XML: a zip archive with one sheet. Texts are stored in
+their cells ("inline strings"), so that nothing need be kept in memory; they are never formulas.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from xml.sax.saxutils import escape
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 MOST_ROWS = 1_048_576
-"""Of a sheet, the head among them: the format has no more."""
-_LONGEST = 32_767  # characters of a cell
-_DATE = (1980, 1, 1, 0, 0, 0)  # the same table, the same bytes
+"""Largest number of rows of a sheet that the format allows, the heads included."""
+_LONGEST = 32_767  # characters in a cell
+_DATE = (1980, 1, 1, 0, 0, 0)  # fixed, so that the same table gives the same bytes
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 
 _HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
@@ -53,10 +53,11 @@ _PARTS = {
 def write_workbook(
     file: Path, heads: Sequence[str], rows: Iterable[Sequence[float | int | str | None]]
 ) -> None:
-    """Write a workbook with one sheet, its first row the heads.
+    """Write a workbook with one sheet, its first row the column heads.
 
-    Numbers are cells of numbers, written so that they are read back to the last bit; None, empty
-    texts and what is not finite are empty cells. Raises OSError where the disk does not take it.
+    Numbers become numeric cells, written so that they read back to the last bit; None, empty texts
+    and
+    non-finite numbers become empty cells. Raises OSError where the disk cannot take it.
     """
     with ZipFile(file, "w", ZIP_DEFLATED) as book:
         for name, text in _PARTS.items():
@@ -90,7 +91,7 @@ def _cell(place: str, cell: float | int | str | None) -> str:
 
 
 def _letters(column: int) -> str:
-    """A, B, ..., Z, AA, ... for 0, 1, ..."""
+    """Return A, B, ..., Z, AA, ... for 0, 1, ..."""
     letters = ""
     column += 1
     while column:

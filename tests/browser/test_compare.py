@@ -47,6 +47,17 @@ def test_a_kept_design_is_opened_and_removed_and_both_can_be_undone(designer):
     page.wait_for_selector("#kept-drop-0")
 
 
+def test_a_heading_says_in_full_which_design_is_the_one_at_hand(designer):
+    """Of "Untitled design (at hand)" the end was cut off."""
+    keep(designer, 0)
+    designer.until("document.querySelectorAll('.compare thead th').length === 3")
+    cut = designer.page.locator(".compare thead th span").evaluate_all(
+        "all => all.filter(one => one.scrollWidth > one.clientWidth"
+        " || one.scrollHeight > one.clientHeight + 1).length"
+    )
+    assert cut == 0
+
+
 def test_a_design_that_did_not_converge_is_marked_in_the_table(designer):
     keep(designer, 0)
     cells = designer.page.locator(".compare tbody tr", has_text="Converged").inner_text()

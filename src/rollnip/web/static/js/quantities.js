@@ -1,16 +1,14 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
-import { meanLoad } from "./face.js";
 import { FIGURES, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
+import { shaftRange, tractionRange } from "./reach.js";
 import { sheetPaths } from "./sheet.js";
 import { number, written } from "./units.js";
 import { firstInText, say, sayOr } from "./texts.js";
 
 const TINY = 2e-5; // relative errors below it say nothing to anybody
 const LOST = 0.05; // share of its own error below which nothing is left of a figure
-const CROWN = 0.01; // largest crown of a slider, as a share of the radius
-const THINNEST = 0.98; // largest bore of a slider, as a share of the core
 
 const MATERIAL = {
   shore_a: {
@@ -270,30 +268,12 @@ export function inputAt(path, tree) {
   const [, cooling] = path.match(/^(?:upper|lower)\.heat\.(.+)$/) ?? [];
   if (cooling) return { ...start, ...(COOLING[cooling] ?? THERMAL[last]) };
   const [, side, shaft] = path.match(/^(upper|lower)\.shaft\.(.+)$/) ?? [];
-  if (shaft) return { ...start, ...SHAFT[shaft], ...shaftRange(shaft, tree[side]) };
+  if (shaft) return { ...start, ...SHAFT[shaft], ...shaftRange(shaft, SHAFT[shaft], tree[side]) };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
   if (path.includes(".points[")) return { ...start, ...POINTS[last] };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
   const hint = path === "upper.radius" ? say("hint.diameter") : null;
   return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last] ?? THERMAL[last]) };
-}
-
-function tractionRange(name, tree) {
-  if (name !== "traction") return {};
-  const load = tree.nip.load ?? meanLoad(tree) ?? 5;
-  const most = Number((0.98 * tree.nip.friction * load).toPrecision(3)) || 0.1;
-  return { low: -most, high: most };
-}
-
-/** Large rollers take large crowns; a bore ends where the core does. */
-function shaftRange(name, { radius, layers }) {
-  if (typeof radius !== "number") return {};
-  if (name === "crown.height") {
-    const high = Math.max(SHAFT[name].high, Number((CROWN * radius).toPrecision(2)));
-    return { low: -high / 3, high };
-  }
-  const core = radius - layers.reduce((sum, { thickness }) => sum + thickness, 0);
-  return name === "bore" && core > 0 ? { high: Number((2 * THINNEST * core).toPrecision(3)) } : {};
 }
 
 /** The name of an input of the face, with its roller. */

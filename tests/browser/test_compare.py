@@ -1,7 +1,7 @@
 """Up to four designs over each other and side by side."""
 
 import pytest
-from tests.browser.conftest import DEFAULT, fragment
+from tests.browser.conftest import DEFAULT, Designer, fragment, new_context
 
 pytestmark = pytest.mark.slow
 
@@ -45,6 +45,29 @@ def test_a_kept_design_is_opened_and_removed_and_both_can_be_undone(designer):
     page.wait_for_selector(".compare", state="hidden")
     page.click("#undo")
     page.wait_for_selector("#kept-drop-0")
+
+
+def test_a_heading_says_in_full_which_design_is_the_one_at_hand(designer):
+    """Of "Untitled design (at hand)" the end was cut off."""
+    keep(designer, 0)
+    designer.until("document.querySelectorAll('.compare thead th').length === 3")
+    cut = designer.page.locator(".compare thead th span").evaluate_all(
+        "all => all.filter(one => one.scrollWidth > one.clientWidth"
+        " || one.scrollHeight > one.clientHeight + 1).length"
+    )
+    assert cut == 0
+
+
+def test_on_a_phone_names_of_figures_are_words(browser, base):
+    """Beside three designs they had a column as wide as two letters."""
+    context = new_context(browser, viewport={"width": 390, "height": 844}, locale="de-DE")
+    kept = [{**DEFAULT, "title": title} for title in ("one", "two")]
+    page = context.new_page()
+    Designer(page, base).open(fragment({"case": DEFAULT, "kept": kept, "tab": "compare"}))
+    page.wait_for_selector(".compare tbody th")
+    widths = page.locator(".compare tbody th").evaluate_all("all => all.map(n => n.clientWidth)")
+    assert min(widths) >= 75
+    context.close()
 
 
 def test_a_design_that_did_not_converge_is_marked_in_the_table(designer):

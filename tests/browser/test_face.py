@@ -93,6 +93,42 @@ def test_the_slider_of_the_crown_moves_the_face_as_it_moves(face):
     assert shown == sorted(set(shown))
 
 
+def test_sliders_reach_as_far_as_the_rollers_ask_for(face):
+    """A press of 1.2 m asks for a crown of 3 mm; the slider ended at half of that."""
+    page = face.page
+    face.enter("in-upper-radius", "1200 mm")
+    page.press(f"#{UPPER}-crown-height-slider", "End")
+    face.rest("face")
+    assert float(page.input_value(f"#{UPPER}-crown-height")) == 6.0
+    page.press(f"#{UPPER}-bore-slider", "End")
+    face.rest("face")
+    assert 1100.0 < float(page.input_value(f"#{UPPER}-bore")) < 1176.0  # of the core
+    assert page.inner_text(f"#{UPPER}-bore-wrong") == ""
+
+
+def test_a_slider_stands_right_where_its_range_is_another(face):
+    page = face.page
+    before = int(page.input_value(f"#{UPPER}-crown-height-slider"))
+    face.enter("in-upper-radius", "1200 mm")
+    assert int(page.input_value(f"#{UPPER}-crown-height-slider")) < before
+    assert float(page.input_value(f"#{UPPER}-crown-height")) == 0.25
+
+
+def test_forces_of_a_press_are_in_kilonewtons(face):
+    """The load of a press stood there as a power of ten, 1.6·10⁶ N."""
+    said = face.page.evaluate(
+        """async () => {
+          const { Units } = await import("/static/js/units.js");
+          const table = await (await fetch("/api/units")).json();
+          const text = (system, force) => new Units(table, system).text(force, "roller force");
+          return [text("metric", 1.6e6), text("metric", 9600), text("us", 1.6e6)];
+        }"""
+    )
+    metric, small, us = (one.replace("\u202f", " ") for one in said)
+    assert (metric, small) == ("1600 kN", "9600 N")
+    assert us.endswith("lbf")
+
+
 def test_forces_at_the_ends_tilt_the_nip_and_go_back_to_a_mean_load(face):
     face.answered(lambda: face.page.click("#in-press-ends"), "face")
     face.answered(lambda: face.type("face-in-face-end_loads-0", "4 kN"), "face")

@@ -154,6 +154,22 @@ def test_what_does_not_fit_is_said(heat, box, text, wanted):
     heat.until("wanted => document.body.innerText.includes(wanted)", arg=wanted)
 
 
+def test_times_of_a_warning_are_in_the_unit_of_the_page(designer):
+    """They stood there as "0.007 s" and "4.1e-07 to 0.00041 s"."""
+    said = designer.page.evaluate(
+        """async () => {
+          const { inWords } = await import("/static/js/said.js");
+          const { Units } = await import("/static/js/units.js");
+          const table = await (await fetch("/api/units")).json();
+          return inWords("Material 1 is used beyond its data: the dwell time 0.007 s lies outside"
+            + " its relaxation times 4.1e-07 to 0.00041 s.", "", new Units(table, "metric"));
+        }"""
+    )
+    assert said.replace("\u202f", " ").endswith(
+        "the dwell time 7 ms lies outside its relaxation times 0.00041 ms to 0.41 ms."
+    )
+
+
 def test_the_warm_up_is_drawn_and_goes_with_another_design(heat):
     heat.page.click("#warm-up-go")
     drawn = heat.trace("chart-warm-up", "Upper roller: hot spot")

@@ -279,3 +279,10 @@ def test_ctrl_c_before_the_commands_are_loaded_ends_quietly(monkeypatch):
     with pytest.raises(SystemExit) as left:
         cli.main()
     assert left.value.code == 130
+
+
+def test_the_help_names_what_most_users_want_first():
+    lines = CliRunner().invoke(app, ["--help"]).stdout.split("Commands:")[1].splitlines()
+    names = [line.split()[0] for line in lines if line.startswith("  ") and line[2] != " "]
+    assert names[:3] == ["solve", "serve", "face"]
+    assert len(names) == len(app.registered_commands) + len(app.registered_groups)

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip._results.case import case_tree
 from rollnip.cli.app import app
+from rollnip.cli.face import _percent
 from rollnip.face import with_crown
 from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.face.reservations import reservations_of
@@ -261,6 +262,14 @@ def test_face_crown(smooth):
     assert tree["loads"]["low"] < 6.0 < tree["loads"]["high"]
 
 
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.0483, "4.8 %"), (0.38, "38 %"), (0.9972, "100 %"), (1.62, "162 %")]
+)
+def test_a_large_departure_is_no_power_of_ten(share, text):
+    """The load of a press without a crown departed by 1.6e+02 %."""
+    assert _percent(share) == text
+
+
 def test_face_read(tmp_path, smooth):
     widths = tmp_path / "widths.csv"
     widths.write_text("y [mm], width [mm]\n-750, 14.1\n0, 13.6\n750, 14.4\n")
@@ -287,7 +296,14 @@ def test_the_picture_names_its_axes(straight, style):
     )
     assert title.get_color() == palette_of(style).ink
     labels = [ax.get_ylabel() for ax in figure.axes]
-    assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [mm]"]
+    assert labels == [
+        "nip width [mm]",
+        "line load [N/mm]",
+        "traction [N/mm]",
+        "more than at the ends [mm]",
+    ]
+    (mean,) = figure.axes[1].get_legend().get_texts()
+    assert mean.get_text() == "mean"
 
 
 def test_netcdf_holds_the_face(tmp_path):

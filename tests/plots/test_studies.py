@@ -32,6 +32,8 @@ def test_a_map_has_the_values_where_they_belong():
     assert legend_texts(ax) == ["width [mm] = 8"]
     wanted = ax.collections[-1].get_paths()[0].vertices
     np.testing.assert_allclose(wanted.sum(axis=1), 8.0)
+    assert ax.texts
+    assert not any(text.get_clip_on() for text in ax.texts)  # at the edge they were cut off
 
 
 def test_a_map_leaves_out_what_is_not_there_and_says_what_is_not_reached():

@@ -245,19 +245,18 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
 
     length, per_length = FACE_PROFILES["y"].shown_unit, FIGURES["load"].shown_unit
     found, within = best.solution, 100 * wall.within
-    off = 100.0 * found.largest_departure
     lines = [
         f"Parabolic crown of the {best.roller} roller: {best.height:.4g} {length} on the diameter",
         f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} {per_length}, "
-        f"within {off:.2g} % of the mean",
+        f"within {_percent(found.largest_departure)} of the mean",
         f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} {length} in the middle "
         "(table with --json)",
     ]
     if best.skewed is not None:
-        skewed = 100.0 * best.skewed.largest_departure
+        skewed = _percent(best.skewed.largest_departure)
         lines.append(
-            f"  skew instead           {degrees(best.skew):.4g} degrees, within "
-            f"{skewed:.2g} % of the mean"
+            f"  skew instead           {degrees(best.skew):.4g} degrees, "
+            f"within {skewed} of the mean"
         )
     if loads is None:
         lines.append(f"  no load is within {within:g} % of its mean over the whole face")
@@ -267,8 +266,8 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
         lines.append(f"  within {within:g} % of the mean  from {low} to {high} {per_length}")
     if wall.wall is None:
         lines.append(
-            f"  without a crown        not even a solid core: the load departs from its mean by "
-            f"{100.0 * wall.solid:.2g} %"
+            f"  without a crown        even a solid core is too soft: the load departs from its "
+            f"mean by {_percent(wall.solid)}"
         )
     else:
         lines.append(
@@ -276,6 +275,12 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
             f"(bore {wall.bore:.4g} {length}) keeps within {within:g} %"
         )
     return "\n".join(lines) + "\n"
+
+
+def _percent(share: float) -> str:
+    """Return a share in per cent, to two digits, and without a power of ten however large."""
+    value = 100.0 * share
+    return f"{value:.2g} %" if value < 99.5 else f"{value:.0f} %"
 
 
 def _reading_text(reading: Any) -> str:

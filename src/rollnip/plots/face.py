@@ -36,7 +36,8 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
             spine.set_color(palette.ink)
     _impression(impression, solution, palette)
     _line(load, solution, solution.load, FACE_PROFILES["load"].axis, palette.pressure)
-    load.axhline(solution.mean_load, color="0.5", linewidth=0.8, linestyle=":")
+    load.axhline(solution.mean_load, color="0.5", linewidth=0.8, linestyle=":", label="mean")
+    load.legend(frameon=False, fontsize=9, loc="best", labelcolor=palette.ink)
     _line(scrub, solution, solution.traction, FACE_PROFILES["traction"].axis, palette.shear)
     if isinstance(solution, SheetFaceSolution):
         _sheet(axes[3], axes[4], scrub, solution, palette)
@@ -45,6 +46,7 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
     for ax in figure.axes:
         for text in (ax.title, ax.xaxis.label, ax.yaxis.label):
             text.set_color(palette.ink)
+    figure.align_ylabels(axes)
     title = solution.nip.title or "Face"
     state = "" if solution.converged else " (NOT CONVERGED)"
     figure.suptitle(f"{title}{state}", color=palette.ink, ha="left", x=0.02)
@@ -120,5 +122,5 @@ def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
     )
     for values, color, dashes, name in lines:
         ax.plot(solution.y, values, color=color, linewidth=1.8, linestyle=dashes, label=name)
-    ax.set_ylabel(FACE_PROFILES["deflection_upper"].axis_for("over the ends"))
+    ax.set_ylabel(FACE_PROFILES["deflection_upper"].axis_for("more than at the ends"))
     ax.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")

@@ -58,6 +58,7 @@ def plot_map(
     filled, lines = _contours(ax, look, places, field)
     ax.clabel(lines, fontsize=look.small, fmt="%.4g")
     for text in lines.labelTexts:
+        text.set_clip_on(False)  # one at the edge is read in full
         text.set_path_effects([withStroke(linewidth=2.5, foreground=look.palette.ground)])
         text.set_color(look.palette.ink)
     if wanted is not None:

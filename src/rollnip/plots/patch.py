@@ -52,7 +52,8 @@ def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
     across.set_xlabel(PATCH_PLACES["y"].axis_for("y, along the axis"))
     for ax, other, fixed in ((along, "y", solution.y[row]), (across, "x", solution.x[column])):
         way = "x" if other == "y" else "y"
-        said = f"along {way} at {other} = {PATCH_PLACES[other].text(fixed)}"
+        place = PATCH_PLACES[other].text(fixed, 2).replace("-", "\N{MINUS SIGN}")
+        said = f"along {way} at {other} = {place}"
         ax.set_title(said, loc="left", size=10, color=palette.ink)
     for ax in figure.axes:
         ax.tick_params(colors=palette.ink)

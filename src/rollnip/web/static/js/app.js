@@ -17,7 +17,7 @@ import { Inputs } from "./inputs.js";
 import { examplesDialog } from "./menus.js";
 import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
-import { same } from "./paths.js";
+import { placeInWords, same } from "./paths.js";
 import { modulusOf } from "./materials.js";
 import { PatchRunner } from "./patchrunner.js";
 import { linkOf } from "./permalink.js";
@@ -244,7 +244,8 @@ export class App extends Actions {
   }
 
   failed(tree, error) {
-    this.failure = { tree, error };
+    const details = (error.details ?? []).map((one) => ({ ...one, path: one.path || inputSaid(one.message, tree) }));
+    this.failure = { tree, error: { message: error.message, details } };
     this.complainAt();
     this.stand();
   }
@@ -273,11 +274,11 @@ export class App extends Actions {
   /** Each complaint at its input and, in words, above everything. */
   alarmFailure() {
     const { tree, error } = this.failure;
-    const details = (error.details ?? []).map(({ path, message }) => ({
+    const details = error.details.map(({ path, message }) => ({
       path,
-      message: inWords(message, path, this.units(), inputAt(path ?? "", tree)),
+      message: inWords(message, path, this.units(), inputAt(path, tree)),
     }));
-    alarm(say("alarm.none"), sentencesOf({ message: error.message, details }));
+    alarm(say("alarm.none"), sentencesOf({ message: error.message, details }, (path) => placeSaid(path, tree)));
   }
 
   /** The same answer, or that there is none, in other units, colours or tabs. */
@@ -338,3 +339,14 @@ export class App extends Actions {
   }
 }
 
+/** The path of the input that a sentence about none begins with; "" where it is none of the nip's. */
+function inputSaid(message, tree) {
+  const [, name] = message.match(/^`([a-z_]+)` /) ?? [];
+  return typeof tree.nip[name] === "number" ? `nip.${name}` : "";
+}
+
+/** Where a complaint belongs: an input of the nip by its label. */
+function placeSaid(path, tree) {
+  const label = path.startsWith("nip.") ? inputAt(path, tree).label : null;
+  return label ? `${label}: ` : placeInWords(path);
+}

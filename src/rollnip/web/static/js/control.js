@@ -98,7 +98,10 @@ export class Control {
   refresh(tree) {
     const value = this.valueIn(tree);
     if (typeof value !== "number") return;
-    const { dimension, factor } = this.input;
+    const { dimension, factor, low, high } = this.input;
+    const range = `${low} ${high}`;
+    if (range !== this.range && value !== this.sent) this.slider.value = String(this.place(value));
+    this.range = range;
     const units = this.app.units();
     const text = typable(units.shown(value * factor, dimension), BOX_DIGITS);
     const unit = units.name(dimension);

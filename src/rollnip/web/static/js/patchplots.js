@@ -51,7 +51,7 @@ export function pressureMap({ patch, fields }, units, palette) {
     zmin: 0,
     ncontours: 11,
     colorscale: palette.sequential,
-    contours: { coloring: "fill", showlines: true, showlabels: true, labelfont: { size: 10.5 } },
+    contours: { coloring: "fill", showlines: true },
     line: { width: 0.8, color: `${palette.ink}99` },
     colorbar: { title: { text: titled(curveName("field", "pressure"), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
     hovertemplate: `x %{x:.4~g}, y %{y:.4~g} ${length}: %{z:.4~g} ${unit}<extra></extra>`,

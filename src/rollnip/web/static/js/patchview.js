@@ -208,7 +208,7 @@ function figuresTable(result, coarse, friction, units) {
           { "data-patch": key },
           el("th", { scope: "row", text: label }),
           el("td", { text: cell(value, dimension) }),
-          el("td", { text: error === null ? say("patch.no-error") : `± ${units.error(error, dimension)}` }),
+          el("td", { class: "error", text: error === null ? say("patch.no-error") : `± ${units.error(error, dimension)}` }),
           first ? el("td", { text: cell(cleaned(first[key]?.value, value, error), dimension) }) : null,
         ),
       ),

@@ -1,13 +1,14 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
-import { meanLoad } from "./face.js";
 import { FIGURES, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
+import { shaftRange, tractionRange } from "./reach.js";
 import { sheetPaths } from "./sheet.js";
 import { number, written } from "./units.js";
 import { firstInText, say, sayOr } from "./texts.js";
 
 const TINY = 2e-5; // relative errors below it say nothing to anybody
+const LOST = 0.05; // share of its own error below which nothing is left of a figure
 
 const MATERIAL = {
   shore_a: {
@@ -20,7 +21,7 @@ const MATERIAL = {
   modulus: {
     label: say("input.modulus"),
     dimension: "pressure",
-    low: 0.05,
+    low: 0.01,
     high: 500,
     log: true,
     hint: say("hint.modulus"),
@@ -108,7 +109,7 @@ const NIP = {
     label: labelOf("load"),
     dimension: "line load",
     low: 0.05,
-    high: 200,
+    high: 500,
     log: true,
     hint: say("hint.load"),
   },
@@ -266,20 +267,13 @@ export function inputAt(path, tree) {
   if (path.startsWith("heat.")) return { ...start, ...(HEAT[path.slice(5)] ?? THERMAL[last]) };
   const [, cooling] = path.match(/^(?:upper|lower)\.heat\.(.+)$/) ?? [];
   if (cooling) return { ...start, ...(COOLING[cooling] ?? THERMAL[last]) };
-  const [, shaft] = path.match(/\.shaft\.(.+)$/) ?? [];
-  if (shaft) return { ...start, ...SHAFT[shaft] };
+  const [, side, shaft] = path.match(/^(upper|lower)\.shaft\.(.+)$/) ?? [];
+  if (shaft) return { ...start, ...SHAFT[shaft], ...shaftRange(shaft, SHAFT[shaft], tree[side]) };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
   if (path.includes(".points[")) return { ...start, ...POINTS[last] };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
   const hint = path === "upper.radius" ? say("hint.diameter") : null;
   return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last] ?? THERMAL[last]) };
-}
-
-function tractionRange(name, tree) {
-  if (name !== "traction") return {};
-  const load = tree.nip.load ?? meanLoad(tree) ?? 5;
-  const most = Number((0.98 * tree.nip.friction * load).toPrecision(3)) || 0.1;
-  return { low: -most, high: most };
 }
 
 /** The name of an input of the face, with its roller. */
@@ -342,13 +336,14 @@ export const ANSWERS = [...FIGURES, ...SHEET_FIGURES].map((figure) => ({
   hint: ({ [figure.key]: value }, units) => said(figure).hint + (MEANINGS[figure.key]?.(value, units) ?? ""),
 }));
 
-/** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
+/** The result with every scalar on its first level, as sweeps give it; what is rounding or error only is zero. */
 export function flat(result) {
   const { friction, viscous } = result.dissipation;
   const losses = { dissipation_friction: friction, dissipation_viscous: viscous };
   const error = { ...result.error, ...ofSheet(result.sheet?.error) };
   const all = { ...result, ...losses, ...ofSheet(result.sheet), error };
-  const cleaned = [...FIGURES, ...SHEET_FIGURES].map(({ key, size }) => [key, isNoise(all[key], all, size) ? 0 : all[key]]);
+  const isNothing = ({ key, size }) => isNoise(all[key], all, size) || isLost(all[key], error[key]);
+  const cleaned = [...FIGURES, ...SHEET_FIGURES].map((figure) => [figure.key, isNothing(figure) ? 0 : all[figure.key]]);
   return { ...all, ...Object.fromEntries(cleaned) };
 }
 
@@ -364,6 +359,11 @@ function isNoise(value, all, size) {
   if (value === null || value === undefined) return false;
   const factors = Object.entries(size).map(([name, power]) => Math.abs(all[name] ?? 0) ** power);
   return Math.abs(value) < factors.reduce((product, factor) => product * factor, ROUNDING);
+}
+
+/** Whether a figure is less than the last digit that its error is written with. */
+function isLost(value, error) {
+  return Boolean(value && error) && Math.abs(value) < LOST * error;
 }
 
 /** An estimated error worth showing, or null. */

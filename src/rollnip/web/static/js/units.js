@@ -3,6 +3,7 @@
 import { LARGE, RESULT_UNITS } from "./figures.js";
 
 const DIGITS = 4;
+const METRIC_LARGE = { "roller force": { from: 1e5, unit: "kN", scale: 1e3 } }; // of a press
 const WRITTEN = {
   degC: "°C",
   degF: "°F",
@@ -25,7 +26,7 @@ export class Units {
 
   /** {name, scale, offset} of a dimension for values up to `largest`; name "" where it has no unit. */
   of(dimension, largest = 0) {
-    const large = LARGE[dimension];
+    const large = LARGE[dimension] ?? (this.system === "metric" ? METRIC_LARGE[dimension] : undefined);
     if (large && Math.abs(largest) >= large.from) return { name: large.unit, scale: large.scale, offset: 0 };
     if (RESULT_UNITS[dimension]) {
       const [name, scale] = RESULT_UNITS[dimension][this.system];
@@ -58,17 +59,16 @@ export class Units {
     return shown * scale + offset;
   }
 
-  /** {text, unit} of a value of the base system. */
+  /** {text, unit} of a value of the base system, in the unit for its size. */
   format(value, dimension, digits = DIGITS) {
     if (value === null || value === undefined) return { text: "–", unit: "" };
-    return { text: number(this.shown(value, dimension), digits), unit: this.name(dimension) };
+    const { name, scale, offset } = this.of(dimension, value);
+    return { text: number((value - offset) / scale, digits), unit: written(name) };
   }
 
   /** A value of a figure of the registry, in the unit for its size. */
   figure({ dimension, digits }, value) {
-    if (value === null || value === undefined) return "–";
-    const { name, scale, offset } = this.of(dimension, value);
-    return joined(number((value - offset) / scale, digits), written(name));
+    return this.text(value, dimension, digits);
   }
 
   /** The same as one text. */

@@ -11,6 +11,7 @@ export const SOLVER_DE = {
   "solver.thin-layer": "Die oberste Schicht der {side} Walze ({thickness} mm) ist dünner als ein halbes Element ({element} mm); Spannungen darin ändern sich schneller, als die Lösung zeigt.",
   "solver.loss-factor": "Werkstoff {number} (von der Oberfläche aus) der {side} Walze hat einen festen Verlustfaktor: Kein wirklicher Werkstoff hat ihn bei allen Frequenzen; trauen Sie dem Verlauf über die Last, nicht dem über die Geschwindigkeit.",
   "solver.times": "Werkstoff {number} (von der Oberfläche aus) der {side} Walze wird außerhalb seiner Daten gebraucht: Die Verweilzeit {time} s liegt außerhalb seiner Relaxationszeiten {shortest} bis {longest} s.",
+  "solver.flattened": "muss so klein sein, dass der Spalt schmaler bleibt als die kleinere Walze; gegeben ist {value} {unit}, etwa {most} {same} drückt sie ganz platt.",
   "solver.shift": "Werkstoff {number} (von der Oberfläche aus) der {side} Walze ist um {distance} K von der Bezugstemperatur verschoben; eine Verschiebung ist selten über mehr als {limit} K gemessen.",
   "solver.no-shift": "Für Werkstoff {number} (von der Oberfläche aus) der {side} Walze ist keine Verschiebung mit der Temperatur gegeben: Seine Moduln folgen der Temperatur nicht.",
   "solver.loss-stays": "Werkstoff {number} (von der Oberfläche aus) der {side} Walze hat einen Verlustfaktor, der der Temperatur nicht folgt.",

@@ -11,6 +11,7 @@ export const SOLVER_EN = {
   "solver.thin-layer": "The top layer of the {side} roller ({thickness} mm) is thinner than half an element ({element} mm); stresses within it vary faster than the solution shows.",
   "solver.loss-factor": "Material {number} (from the surface) of the {side} roller has a constant loss factor: no real material has it at all frequencies, so trust trends in load, not in speed.",
   "solver.times": "Material {number} (from the surface) of the {side} roller is used beyond its data: the dwell time {time} s lies outside its relaxation times {shortest} to {longest} s.",
+  "solver.flattened": "must be small enough for a nip narrower than the smaller roller; got {value} {unit}, about {most} {same} flattens it whole.",
   "solver.shift": "Material {number} (from the surface) of the {side} roller is shifted over {distance} K from the reference temperature; a shift is seldom measured over more than {limit} K.",
   "solver.no-shift": "Material {number} (from the surface) of the {side} roller has no shift: its moduli do not follow the temperature.",
   "solver.loss-stays": "Material {number} (from the surface) of the {side} roller has a loss factor, which does not follow the temperature.",

@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures
+from rollnip.cli.console import clear_failures, named
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -136,7 +136,8 @@ def read(
 
         table = read_columns(widths)
         y, found = table.samples("y", "length"), table.samples("width", "length")
-        spread = parse_quantity(scatter, "length")
+        with named("--scatter"):
+            spread = parse_quantity(scatter, "length")
         impressions = [Impression(y, found, spread)]
         if "load" in table.names:
             loads = table.samples("load", "line load")
@@ -278,6 +279,12 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _per_cent(share: float) -> str:
+    """Return a share in per cent to two digits, and without an exponent where it is large."""
+    value = 100.0 * share
+    return f"{value:+.2g} %" if abs(value) < 99.0 else f"{value:+.0f} %"
+
+
 def _reading_text(reading: Any) -> str:
     from rollnip.face.figures import ADDED_CROWN, FACE_FIGURES, IMPRESSION_FIGURES
 
@@ -295,7 +302,7 @@ def _reading_text(reading: Any) -> str:
     lines.append(f"  an even load needs a crown of {needed} more on the diameter")
     shop = f"  the shop formula says {said}"
     if reading.shop_error is not None:
-        shop += f", off by {100.0 * reading.shop_error:+.2g} %"
+        shop += f", off by {_per_cent(reading.shop_error)}"
     lines.append(shop)
     lines += [f"  note: {line}" for line in reading.warnings]
     return "\n".join(lines) + "\n"

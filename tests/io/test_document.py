@@ -69,8 +69,8 @@ def test_a_bare_decimal_comma_is_told(line, number):
         ("core = steel", 'write "steel", in quotes.'),
         ("bending = True", "write true."),
         ("load = \u201c2 N/mm\u201d", 'write straight quotes (").'),
-        ("friction = 0.4", "a key or a table is given twice: keep one of them."),
-        ("[nip]", "a key or a table is given twice: keep one of them."),
+        ("friction = 0.4", "a key is given twice: keep one of the two."),
+        ("[nip]", "keep one of the two tables."),
     ],
 )
 def test_a_value_without_quotes_or_a_second_one_is_told(line, hint):

@@ -136,8 +136,10 @@ def _json(text: str) -> Any:
 
 def _hint(text: str, message: str) -> str:
     """Return what to write in place of what stands where a message about TOML points; or ""."""
-    if "Cannot overwrite" in message or message.startswith("Cannot declare"):
-        return "; a key or a table is given twice: keep one of them"
+    if message.startswith("Cannot declare"):
+        return "; keep one of the two tables"
+    if message.startswith("Cannot overwrite"):
+        return "; a key is given twice: keep one of the two"
     place = _AT.search(message)
     lines = text.splitlines()
     if place is None or int(place[1]) > len(lines):

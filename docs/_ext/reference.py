@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.statemachine import StringList
+from meanings import meaning
 from sphinx.util.docutils import SphinxDirective
 
 
@@ -58,10 +59,15 @@ class CaseKeys(Markup):
         tree = schema if name == "CaseTable" else schema["$defs"][name]
         required = tree.get("required", [])
         rows = [
-            (f"`{key}`", kind_of(part), "required" if key in required else default_of(part))
+            (
+                f"`{key}`",
+                meaning(name, key, part),
+                kind_of(part),
+                "required" if key in required else default_of(part),
+            )
             for key, part in tree["properties"].items()
         ]
-        return table(("key", "value", "if left out"), rows)
+        return table(("key", "meaning", "value", "if left out"), rows)
 
 
 def kind_of(part: dict[str, Any]) -> str:
@@ -69,29 +75,44 @@ def kind_of(part: dict[str, Any]) -> str:
     if "const" in part:
         return f'`"{part["const"]}"`'
     if "enum" in part:
-        return " or ".join(f'`"{value}"`' for value in part["enum"])
-    description = part.get("description", "")
-    if description.startswith("A number"):
-        return quantity(description, part)
+        return " or ".join(f'`"{value}"`' for value in part["enum"] if value != "full")
+    if part.get("examples"):
+        return quantity(part["examples"][0])
     if "$ref" in part:
         return "table"
     if part.get("type") == "array":
-        return "list of tables"
+        return f"list of {plural(kind_of(part['items']))}"
     choices = [kind_of(one) for one in part.get("anyOf", []) if one.get("type") != "null"]
     if choices:
         return choices[0]
     if "oneOf" in part:
-        named = any(one.get("type") == "string" for one in part["oneOf"])
-        return f"table{', or a name from `[materials]`' if named else ''}"
-    kind = {"string": "text", "object": "tables by name"}.get(part.get("type", ""), "value")
-    return f"{kind}. {description}".removesuffix(". ") if description else kind
+        return one_of(part["oneOf"])
+    kinds = {"string": "text", "object": "tables by name", "boolean": "`true` or `false`"}
+    return kinds[part["type"]]
 
 
-def quantity(description: str, part: dict[str, Any]) -> str:
-    """A number with its unit and an example."""
-    unit = description.split(",")[0].removeprefix("A number").removeprefix(" in ").strip()
-    shown = part.get("examples", [""])[0]
-    return f'number in {unit}, or text such as `"{shown}"`' if unit else "plain number"
+def one_of(parts: list[dict[str, Any]]) -> str:
+    """What a key may hold that holds a table or something else."""
+    others = [kind_of(one) for one in parts if "$ref" not in one]
+    if others == ["text"]:
+        return "table, or a name from `[materials]`"
+    return "; or ".join([*others, "table"])
+
+
+def plural(kind: str) -> str:
+    """The plural of what a list holds."""
+    return kind.replace("table", "tables").replace("number", "numbers").replace("text", "texts")
+
+
+def quantity(example: str) -> str:
+    """A number with its unit and an example of a text."""
+    from typing import get_args
+
+    from rollnip import _units
+
+    (dimension,) = (one for one in get_args(_units.Dimension) if _units.example(one) == example)
+    unit = _units.base_unit(dimension)
+    return f'number in {unit}, or text such as `"{example}"`' if unit else "number"
 
 
 def default_of(part: dict[str, Any]) -> str:
@@ -99,7 +120,7 @@ def default_of(part: dict[str, Any]) -> str:
     value = part.get("default")
     if value in (None, "", [], {}) or isinstance(value, dict):
         return "-"
-    return f"`{value}`"
+    return f"`{value:g}`" if isinstance(value, float) else f"`{value}`"
 
 
 class Units(Markup):

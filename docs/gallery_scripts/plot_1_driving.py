@@ -3,8 +3,8 @@ From free rolling to the limit of friction
 ==========================================
 
 How much creepage does a traction cost? Two coated rollers (configuration II of Braat & Kalker,
-1993) are driven harder and harder in both directions. Friction is set to 0.5 here, so that the
-limit is within reach: at a traction of friction times load the whole nip slides.
+1993) are driven harder and harder in both directions. The friction is 0.5 here, so that the
+limit can be reached: at a traction of friction times load the whole nip slides.
 """
 
 from dataclasses import replace
@@ -33,8 +33,8 @@ ax.set(xlabel="creepage [%]", ylabel="traction / (friction x load)")
 figure.show()
 
 # %%
-# The curve does not pass through zero: rolling freely, the upper surface runs slower than the
-# lower one, since its softer covering is stretched more.
+# The curve does not pass through zero: in free rolling the upper roller turns slower than the
+# lower one, because its softer covering is stretched more.
 
 print(f"free rolling: creepage {100 * solutions[5].creepage:.2f} %")
 

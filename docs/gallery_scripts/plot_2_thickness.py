@@ -2,9 +2,9 @@
 How thick should a covering be?
 ===============================
 
-A thinner covering of the same rubber gives a narrower nip and a higher pressure. How much
-depends on Poisson's ratio: rubber hardly changes its volume, so a thin layer of it has nowhere
-to go.
+How much does a thinner covering of the same rubber narrow the nip and raise the pressure? That
+depends on Poisson's ratio: rubber hardly changes its volume, so a thin layer of it can give way
+only sideways.
 """
 
 import matplotlib.pyplot as plt
@@ -39,7 +39,7 @@ left.legend()
 figure.show()
 
 # %%
-# Solid rubber is near 0.5; 0.49 is no safe substitute for it in a thin layer. The numbers:
+# Solid rubber is near 0.5. In the thinnest layer 0.49 widens the nip by two per cent:
 
 for poisson in (0.5, 0.49, 0.45):
     thin, thick = solution(1.0, poisson), solution(10.0, poisson)

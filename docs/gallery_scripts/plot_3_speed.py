@@ -2,8 +2,9 @@
 A viscoelastic covering at all speeds
 =====================================
 
-A standard linear solid is soft when it has time to relax and stiff when it has none. In between
-it costs power: the pressure is shifted towards the inlet and resists the rolling.
+At which speed does a viscoelastic covering lose most? A standard linear solid is soft when it
+has time to relax and stiff when it has none. In between it costs power: the pressure is shifted
+towards the inlet and resists the rolling.
 """
 
 from dataclasses import replace

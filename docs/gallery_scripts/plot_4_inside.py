@@ -27,7 +27,7 @@ plot_field(solution, "von_mises", "upper", ax)
 figure.show()
 
 # %%
-# The same field as numbers, on depths and places of one's own choice:
+# The same field as numbers, at depths and places of your choice:
 
 field = solution.interior("upper", z=np.linspace(0, 6, 61), x=np.linspace(-10, 10, 201))
 row, column = np.unravel_index(np.argmax(field.von_mises), field.von_mises.shape)

@@ -2,9 +2,9 @@
 A thin, stiff skin on a soft covering
 =====================================
 
-A stiff skin over soft rubber, pressed on a bare roller. The skin has to bend where the nip
-begins and ends, and resists: the pressure rises at both edges and the nip gets narrower, while
-the middle hardly changes.
+What does a stiff skin on soft rubber do to the pressure? The skin has to bend where the nip
+begins and ends, and resists: the pressure rises at both edges and the nip gets narrower. In the
+middle the pressure rises by about a tenth.
 """
 
 import matplotlib.pyplot as plt

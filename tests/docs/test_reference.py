@@ -6,6 +6,7 @@ import importlib
 import inspect
 import pkgutil
 import re
+import runpy
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -87,6 +88,15 @@ def test_every_command_is_documented_with_all_its_options(path: str, command: An
 @pytest.mark.parametrize("table", ["CaseTable", *case_schema()["$defs"]])
 def test_every_table_of_the_case_file_is_documented(table: str) -> None:
     assert f"```{{case-keys}} {table}\n" in CASE_FILE
+
+
+@pytest.mark.parametrize("table", ["CaseTable", *case_schema()["$defs"]])
+def test_every_key_of_the_case_file_has_a_meaning(table: str) -> None:
+    meaning = runpy.run_path(str(DOCS / "_ext" / "meanings.py"))["meaning"]
+    schema = case_schema()
+    tree = schema if table == "CaseTable" else schema["$defs"][table]
+    for key, part in tree["properties"].items():
+        assert meaning(table, key, part).strip()
 
 
 def case_blocks() -> Iterator[Any]:

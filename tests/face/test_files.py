@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip._results.case import case_tree
 from rollnip.cli.app import app
-from rollnip.cli.face import _percent
+from rollnip.cli.face import _per_cent
 from rollnip.face import with_crown
 from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.face.reservations import reservations_of
@@ -267,7 +267,7 @@ def test_face_crown(smooth):
 )
 def test_a_large_departure_is_no_power_of_ten(share, text):
     """The load of a press without a crown departed by 1.6e+02 %."""
-    assert _percent(share) == text
+    assert _per_cent(share) == text
 
 
 def test_face_read(tmp_path, smooth):
@@ -278,6 +278,23 @@ def test_face_read(tmp_path, smooth):
     tree = json.loads(result.stdout)
     one = tree["estimates"]["crown"]
     assert one["low"] < one["value"] < one["high"]
+
+
+def test_a_scatter_with_a_wrong_unit_is_named_by_its_option(tmp_path, smooth):
+    widths = tmp_path / "widths.csv"
+    widths.write_text("y [mm], width [mm]\n-750, 14.1\n0, 13.6\n750, 14.4\n")
+    result = run("face", "read", smooth, widths, "--scatter", "0.15 MPa")
+    assert result.exit_code == 2
+    assert result.output.startswith("rollnip: --scatter: must be a length")
+
+
+def test_a_large_error_of_the_shop_formula_has_no_exponent():
+    assert [_per_cent(share, "+") for share in (0.018, -0.5, -1.0, 12.345)] == [
+        "+1.8 %",
+        "-50 %",
+        "-100 %",
+        "+1234 %",
+    ]
 
 
 def test_a_case_without_a_face_is_told_what_is_missing():

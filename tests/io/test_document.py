@@ -58,6 +58,34 @@ def test_a_bare_decimal_comma_is_told(line, number):
     )
 
 
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("load = 1.78 N/mm", 'write "1.78 N/mm", in quotes.'),
+        ("load = 10pli  # of the drawing", 'write "10 pli", in quotes.'),
+        ('load = 3"', 'write "3 in", in quotes.'),
+        ("a = [{ b = 2 mm, c = 3 }]", 'write "2 mm", in quotes.'),
+        ("a = [1 mm, 2 mm]", 'write "1 mm", in quotes.'),
+        ("core = steel", 'write "steel", in quotes.'),
+        ("bending = True", "write true."),
+        ("load = \u201c2 N/mm\u201d", 'write straight quotes (").'),
+        ("friction = 0.4", "a key is given twice: keep one of the two."),
+        ("[nip]", "keep one of the two tables."),
+    ],
+)
+def test_a_value_without_quotes_or_a_second_one_is_told(line, hint):
+    with pytest.raises(CaseFileError) as caught:
+        parse_document(f"[nip]\nfriction = 0.3\n{line}\n", "case.toml")
+    assert str(caught.value).endswith(f"; {hint}")
+
+
+@pytest.mark.parametrize("line", ["load = 05", "load = 1.", "load 3", "[upper", "load = .5"])
+def test_a_fault_of_another_kind_gets_no_such_hint(line):
+    with pytest.raises(CaseFileError) as caught:
+        parse_document(f"[nip]\nfriction = 0.3\n{line}\n", "case.toml")
+    assert "quotes" not in str(caught.value)
+
+
 def test_other_faults_of_a_line_say_nothing_of_commas():
     with pytest.raises(CaseFileError) as caught:
         parse_document("[nip]\nload = 3 5\nfriction = 0,3\n", "case.toml")

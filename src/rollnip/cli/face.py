@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures
+from rollnip.cli.console import clear_failures, named
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -136,7 +136,8 @@ def read(
 
         table = read_columns(widths)
         y, found = table.samples("y", "length"), table.samples("width", "length")
-        spread = parse_quantity(scatter, "length")
+        with named("--scatter"):
+            spread = parse_quantity(scatter, "length")
         impressions = [Impression(y, found, spread)]
         if "load" in table.names:
             loads = table.samples("load", "line load")
@@ -248,12 +249,12 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
     lines = [
         f"Parabolic crown of the {best.roller} roller: {best.height:.4g} {length} on the diameter",
         f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} {per_length}, "
-        f"within {_percent(found.largest_departure)} of the mean",
+        f"within {_per_cent(found.largest_departure)} of the mean",
         f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} {length} in the middle "
         "(table with --json)",
     ]
     if best.skewed is not None:
-        skewed = _percent(best.skewed.largest_departure)
+        skewed = _per_cent(best.skewed.largest_departure)
         lines.append(
             f"  skew instead           {degrees(best.skew):.4g} degrees, "
             f"within {skewed} of the mean"
@@ -267,7 +268,7 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
     if wall.wall is None:
         lines.append(
             f"  without a crown        even a solid core is too soft: the load departs from its "
-            f"mean by {_percent(wall.solid)}"
+            f"mean by {_per_cent(wall.solid)}"
         )
     else:
         lines.append(
@@ -277,10 +278,14 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _percent(share: float) -> str:
-    """Return a share in per cent, to two digits, and without a power of ten however large."""
+def _per_cent(share: float, sign: str = "") -> str:
+    """Return a share in per cent to two digits, and without an exponent where it is large.
+
+    ``sign``: "+" where a positive share is to have a sign.
+    """
     value = 100.0 * share
-    return f"{value:.2g} %" if value < 99.5 else f"{value:.0f} %"
+    digits = ".2g" if abs(value) < 99.5 else ".0f"
+    return f"{value:{sign}{digits}} %"
 
 
 def _reading_text(reading: Any) -> str:
@@ -300,7 +305,7 @@ def _reading_text(reading: Any) -> str:
     lines.append(f"  an even load needs a crown of {needed} more on the diameter")
     shop = f"  the shop formula says {said}"
     if reading.shop_error is not None:
-        shop += f", off by {100.0 * reading.shop_error:+.2g} %"
+        shop += f", off by {_per_cent(reading.shop_error, '+')}"
     lines.append(shop)
     lines += [f"  note: {line}" for line in reading.warnings]
     return "\n".join(lines) + "\n"

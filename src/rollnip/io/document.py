@@ -18,8 +18,11 @@ from rollnip._reading import UnreadableError, read_regular
 
 LARGEST = 1_000_000  # bytes; a case file has some thousand
 _DEEPEST = 32  # dots in a key; a case file has three
-_AT_LINE = re.compile(r"at line (\d+)")
+_AT = re.compile(r"at line (\d+), column (\d+)")
 _COMMA = re.compile(r"(?<==)\s*([+-]?\d+),(\d+)")
+_NUMBER = re.compile(r"[=\[,]\s*([+-]?\d[\d.]*)\s*$")  # a value as far as it can be read
+_UNIT = re.compile(r"[^\W\d]|[%°'\"]")
+_WORD = re.compile(r"[^\W\d][\w-]*")
 _SIGNS = re.compile(r"""(?<=[\w"'-])[ \t]*\.|[^.\w"' \t-]""")  # a dot in a key, or what ends keys
 
 
@@ -56,7 +59,7 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
         raise CaseFileError(f"{name}: is nested too deeply for a case file.") from None
     except ValueError as error:
         kind = "JSON" if is_json else "TOML"
-        hint = "" if is_json else _comma_hint(text, str(error))
+        hint = "" if is_json else _hint(text, str(error))
         raise CaseFileError(f"{name}: is not valid {kind}: {_one_line(error)}{hint}.") from None
     if not isinstance(tree, dict):
         raise CaseFileError(f"{name}: must hold a table (an object), got {type(tree).__name__}.")
@@ -131,17 +134,38 @@ def _json(text: str) -> Any:
     return json.loads(text, object_pairs_hook=table)
 
 
-def _comma_hint(text: str, message: str) -> str:
-    """Return what to write where the line that a message names holds a bare decimal comma."""
-    place = _AT_LINE.search(message)
+def _hint(text: str, message: str) -> str:
+    """Return what to write in place of what stands where a message about TOML points; or ""."""
+    if message.startswith("Cannot declare"):
+        return "; keep one of the two tables"
+    if message.startswith("Cannot overwrite"):
+        return "; a key is given twice: keep one of the two"
+    place = _AT.search(message)
     lines = text.splitlines()
     if place is None or int(place[1]) > len(lines):
         return ""
-    number = _COMMA.search(lines[int(place[1]) - 1])
-    if number is None:
+    line = lines[int(place[1]) - 1]
+    comma = _COMMA.search(line)
+    if comma is not None:
+        whole, part = comma.groups()
+        return f'; write {whole}.{part}, or a text with its unit, such as "{whole},{part} mm"'
+    column = int(place[2]) - 1
+    return _quote_hint(line[:column], line[column:])
+
+
+def _quote_hint(before: str, rest: str) -> str:
+    """Return what to write for a quantity, or a name, without straight quotes."""
+    number, word = _NUMBER.search(before), _WORD.match(rest)
+    if number is not None and _UNIT.match(rest):
+        unit = re.split(r"[,#\]}]", rest)[0].strip().replace('"', "in")
+        return f'; write "{number[1]} {unit}", in quotes'
+    if rest[:1] in {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019"}:
+        return '; write straight quotes (")'
+    if word is None or not before.rstrip().endswith(("=", "[", ",")):
         return ""
-    whole, part = number.groups()
-    return f'; write {whole}.{part}, or a text with its unit, such as "{whole},{part} mm"'
+    if word[0].lower() in {"true", "false"}:
+        return f"; write {word[0].lower()}"
+    return f'; write "{word[0]}", in quotes'
 
 
 def _one_line(error: ValueError) -> str:

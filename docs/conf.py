@@ -124,7 +124,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = "rollnip"
 html_static_path = ["_static"]
 html_css_files = ["rollnip.css"]
-# Pages without pages below them need no column for those.
+# Pages without pages below them need no column for those; wide tables need its room.
 html_sidebars = {
     page: []
     for page in (
@@ -134,6 +134,7 @@ html_sidebars = {
         "theory",
         "limits",
         "conventions",
+        "validation",
         "verification",
         "geometry",
         "finite-strain",

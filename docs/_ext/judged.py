@@ -183,7 +183,12 @@ def _cell(group: str, geometry: str, figure: str) -> str:
     top, mean = largest(group, geometry, figure), root_mean_square(group, geometry, figure)
     if figure == "creepage":
         return f"{top:.4f} ({mean:.4f})" if top else ""
-    return f"{100 * top:.1f} % ({100 * mean:.1f})"
+    return f"{_per_cent(top)} % ({_per_cent(mean)})"
+
+
+def _per_cent(share: float) -> str:
+    """Return a share in per cent; of small ones a second digit, which tells them from zero."""
+    return f"{100 * share:.2f}" if share < 1e-3 else f"{100 * share:.1f}"
 
 
 def summary_table() -> str:
@@ -195,7 +200,9 @@ def summary_table() -> str:
             rows = in_group(group, geometry)
             if not rows:
                 continue
+            # A bar in the name of a group would part the cell.
             name = f"{group}: {len(rows)}" if geometry == GEOMETRIES[0] else ""
+            name = name.replace("|", r"\|")
             cells = [_cell(group, geometry, figure) for figure in FIGURES]
             lines.append(f"| {name} | `{geometry}` | {' | '.join(cells)} |")
     return "\n".join(lines)

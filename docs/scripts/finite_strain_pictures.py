@@ -1,4 +1,4 @@
-"""Pictures of docs/geometry.md: the geometry models over the finite-element profiles.
+"""Pictures of docs/validation.md: the geometry models over the finite-element profiles.
 
 Run from the repository root: python docs/scripts/finite_strain_pictures.py
 """

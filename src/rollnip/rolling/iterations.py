@@ -1,4 +1,4 @@
-"""The solution on one mesh: iterations of contact and its second-order terms, and the check."""
+"""The solution on one mesh: fixed-point iteration of the second-order terms, and the residual."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepa
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 MOST_ITERATIONS = 40
-# Change of the second-order terms in an iteration, over the tolerance. An iteration reduces their
-# remaining error at least tenfold; a coarse mesh that only looks for zones needs them less
-# accurately.
+# Change of the second-order terms at which iterations stop, over the tolerance. An iteration
+# reduces their remaining error at least tenfold. Under a stiff skin, ends are placed with the
+# second value; a coarse mesh that only looks for zones needs no such accuracy.
 STILL = 0.1
 STILL_UNDER_SKIN = 1e-3
 
 
 class Method(Protocol):
-    """A way to solve a contact problem from given states."""
+    """A solver of a contact problem that starts from given states."""
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution, or the last iterate; ``settled`` tells which."""
+        """Return the solution, or the last iterate with ``settled`` false."""
         ...
 
 
 def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Return influence functions with the second order of the mesh before; at first without any.
+    """Return influence functions that hold the second order of the previous mesh; none at first.
 
-    The second order is small and smooth: a few updates are enough, and the last mesh is checked
-    with its own.
+    The second order is small and smooth, so a few updates are enough. The last mesh is checked with
+    its own.
     """
     return held_from(kernels, before if before is not None and before.settled else None)
 
 
 def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Return influence functions with the second order of a solution, if they model it."""
+    """Return influence functions that hold the second order of a solution, if they model it."""
     if kernels.is_fixed:
         return kernels
     if before is None:
@@ -60,10 +60,14 @@ def solve_on_mesh(
     still: float,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> Round:
-    """Solve on one mesh by iteration, until the second-order terms change by so many tolerances.
+    """Return the solution on one mesh, by fixed-point iteration of the second-order terms.
 
-    ``start`` holds states, second-order terms and the steps taken before; ``zones`` those of the
-    solution where they are known.
+    Parameters
+    ----------
+    start : states, second-order terms, and the number of linear systems solved before.
+    method : solver for given second-order terms.
+    still : change of the second-order terms at which to stop, over the tolerance.
+    zones : of the solution; None: derive them from it.
     """
     states, second, steps = start
     change = 0.0
@@ -89,7 +93,7 @@ def solve_on_mesh(
 def change_of(
     new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
 ) -> float:
-    """Return the largest change of the second-order terms, relative to the first-order ones."""
+    """Return the largest change of the second-order terms, relative to the first-order terms."""
     half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
     approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
@@ -119,9 +123,9 @@ def converge(
     method: Method,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> Round:
-    """Repeat iterations until the second-order terms change as little as those of a result must.
+    """Return a solution iterated until its second-order terms change no more than a result's may.
 
-    ``zones`` are those of the solution where they are known.
+    ``zones``: see `solve_on_mesh`.
     """
     if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
         return latest
@@ -131,10 +135,10 @@ def converge(
 
 
 def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """Add the residual to a solution, from the contact conditions on more points.
+    """Return a solution with its residual: of the contact conditions, on more points.
 
-    From here on the mesh holds the second order of its own tractions. The change of the
-    second-order terms by that is recorded as the last change.
+    Where the second order follows the tractions, the mesh of the result holds that of its own
+    tractions. The change of the second-order terms that this makes counts for `geometry_change`.
     """
     if not kernels.is_fixed:
         kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))

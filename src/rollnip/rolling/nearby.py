@@ -1,8 +1,8 @@
-"""A nip that has been solved, as a start for one that is much like it.
+"""A solved nip, as initial guess for a similar one at finite strain.
 
-The correction of all orders that belongs to the old solution is held while the new contact is
-solved, and its elements start from their old equilibrium. The iterations that follow end as any
-others do: where the contact conditions are met with the correction of the solution itself.
+The new contact is first solved with the old solution's correction of all orders held, and the
+finite elements start from their old equilibrium. The iterations that follow end as any others do:
+when the contact conditions are met with the correction of the solution itself.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ class Nearby:
 
     Attributes
     ----------
-    nip : that was solved.
-    kernels : its influence functions, with the correction of the solution.
+    nip : the nip solved.
+    kernels : its influence functions, holding the correction of the solution.
     final : the solution.
     """
 
@@ -45,9 +45,12 @@ class Nearby:
     def begun(
         self, nip: Nip, model: Model, kernels: PairKernels, half_width: float
     ) -> tuple[PairKernels, Round] | None:
-        """Return the contact of another nip with the correction held, and what holds it.
+        """Return the contact of another nip with the correction of this one held.
 
-        None where the nips are not much alike, or where that has no solution.
+        Returns
+        -------
+        The influence functions that hold the correction, and the solution; None where the nips are
+        not alike enough, or no solution is found.
         """
         held, layout = self.kernels.held, Layout.of(self.final.zones)
         if held is None or held.share < 1.0 or layout is None:
@@ -67,6 +70,6 @@ class Nearby:
 
 
 def _kind(nip: Nip) -> tuple[object, ...]:
-    """Return what is alike in nips of a family: what is given, and what moves."""
+    """Return what similar nips must share: what is prescribed, and which rollers are rigid."""
     given = type(nip.normal), type(nip.tangential), nip.friction > 0.0
     return *given, nip.upper.is_rigid, nip.lower.is_rigid

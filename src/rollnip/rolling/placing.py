@@ -1,7 +1,8 @@
-"""The ends of zones, by secants on meshes of one size whose nodes lie at the ends.
+"""The free boundary at one mesh size: meshes whose nodes follow the ends of zones.
 
-The tractions at the first nodes beside each end say where it moves (`contact.Layout.moved`). Once
-the ends are about right, a solution tells whether its zones are right too (`search.ZoneSearch`).
+The tractions at the first nodes beside each end propose where it should be (`contact.Layout.moved`)
+and Broyden's method moves it there (`contact.secants`). Once the ends are nearly right, a solution
+shows whether its zones are the right ones (`search.ZoneSearch`).
 """
 
 from __future__ import annotations
@@ -42,14 +43,16 @@ from rollnip.rolling.round import Figures, Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
-# Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
-# sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
+# Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
+# digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
+# 19.
 MOST_MESHES = 8
-# Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
-# solution says only which way an edge should go, and the way between the last two is halved.
+# Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
+# by more than a boundary layer is found by bisection, as a solution shows only in which direction
+# it should move.
 _MOST_HALVINGS = 6
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
-_PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
+_PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
 
 
 # Elements in each zone and their crowding.
@@ -58,7 +61,7 @@ Shape = tuple[Indices, tuple[float, ...]]
 
 @dataclass(frozen=True)
 class Placing:
-    """The search for the zones of a nip and their ends, for one model."""
+    """Solver for the zones of a nip and their ends, on meshes of a given size."""
 
     nip: Nip
     model: Model
@@ -68,21 +71,24 @@ class Placing:
     def placed(
         self, start: SearchState, count: int, *, known: bool, closely: bool = False
     ) -> SearchState | None:
-        """Find the solution on a mesh of some size whose nodes lie at the ends of its zones.
+        """Return the solution with placed ends on a mesh of given size, and its zones.
+
+        Each step solves on one mesh and moves its ends, or changes the zones if the solution shows
+        that there are others.
 
         Parameters
         ----------
-        start : where the search stands.
-        count : elements, about.
-        known : whether the zones are right.
-        closely : whether ends must not change the figures any more. Two meshes tell, or one where
-            those of the size before have shown what ends do to figures.
+        start : state of the search, with the zones to start from.
+        count : rough number of elements.
+        known : whether the zones are known to be right.
+        closely : whether to place the ends so exactly that the figures no longer change with them.
+            Two meshes show how figures depend on ends, or one if the previous size has shown it.
 
         Returns
         -------
-        None where there is no such solution.
+        None where no such solution is found.
         """
-        # The second order held so far is that of a coarser mesh: each size evaluates its own.
+        # The second order held so far is from a coarser mesh: each size evaluates its own.
         state, known_to = self._renewed(replace(start, expected=inf)), start.misplacement
         shape: Shape | None = None
         ends, meshes, is_seen = Secants(known_to * start.layout.width), 0, True
@@ -95,7 +101,7 @@ class Placing:
             layout = state.layout
             crowding = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
             if shape is None or _crowds_more(crowding, shape[1]):
-                # Elements stay as they are while edges are sought: other ones would move the edges.
+                # Elements are kept while ends are sought, as another mesh would shift the ends.
                 shape = elements_of_zones(layout.breaks, count, crowding), crowding
                 ends.forget()
                 last = None
@@ -105,13 +111,13 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH and is_quiet
             is_still = latest.settled and is_quiet
-            # Figures of other zones tell nothing of errors.
+            # Errors are estimated from sizes with the same zones only.
             is_close = closely and layout.is_like(start.layout)
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
             elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
-                effect = None  # zones change too much to tell from those of another size
+                effect = None  # zones change too much for what another size has shown to apply
             left = None if effect is None else effect.times(there.distance(layout))
             last = layout, latest.figures
             by_figures = is_close and self._rests_by_figures
@@ -130,7 +136,7 @@ class Placing:
                 tried.add(other.layout.key)
                 state, shape = self._renewed(other), None
                 ends = Secants(known_to * layout.width)
-                # Ends that have been placed before hardly move: what they do is not seen.
+                # Ends that have been placed before hardly move: their effect cannot be measured.
                 is_seen, effect = is_seen and not is_placed, None
                 meshes = 0
             elif is_placed:
@@ -143,13 +149,14 @@ class Placing:
         return None
 
     def solved_at_moved_ends(self, state: SearchState) -> SearchState | None:
-        """Solve on meshes like the last one, with the ends of zones where the last one put them.
+        """Return the solution with the ends moved to where the last solution put them.
 
-        Once where ends hardly move, else twice; they need not be placed.
+        It takes one mesh like the last one if the ends hardly move, otherwise two. The ends need
+        not be placed.
 
         Returns
         -------
-        None where the solution calls for other zones.
+        None where the solution calls for other zones, or the ends move by more than before.
         """
         fine = state.before.mesh.fine
         shape, misplacement = (np.array(fine.elements), fine.crowding), inf
@@ -171,7 +178,7 @@ class Placing:
         return state
 
     def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
-        """Return a mesh on zones that are only known roughly: no solution has them as its own."""
+        """Return a mesh on roughly known zones, to seek states node by node."""
         shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
         nodes = cosine_nodes(zones.breaks, *shape)
         fine = subdivided(nodes, *shape, self.longest_piece)
@@ -179,7 +186,7 @@ class Placing:
 
     @cached_property
     def search(self) -> ZoneSearch:
-        """The questions to ask of a solution."""
+        """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model, self.kernels)
 
     @cached_property
@@ -189,18 +196,19 @@ class Placing:
 
     @cached_property
     def still(self) -> float:
-        """Change of second-order terms in an iteration that is small enough, over the tolerance.
+        """Change of the second-order terms at which iterations stop, over the tolerance.
 
-        Under a stiff skin the pressure beside an edge follows each small change of the gap.
+        It is smaller under a stiff skin, where the pressure beside an edge responds strongly to
+        small changes of the gap.
         """
         return STILL_UNDER_SKIN if has_stiff_skin((self.nip.upper, self.nip.lower)) else STILL
 
     @cached_property
     def longest_piece(self) -> float:
-        """Length of the straight pieces in which tractions act, at most [mm].
+        """Largest length of the linear pieces of the acting tractions [mm].
 
         A thin incompressible covering on a rigid core moves as the second derivative of the
-        pressure, which straight pieces longer than its thickness do not have.
+        pressure, which linear pieces longer than its thickness cannot represent.
         """
         coverings = [
             roller.coating_thickness
@@ -212,20 +220,21 @@ class Placing:
 
     @property
     def _rests_by_figures(self) -> bool:
-        """Whether ends are placed when the figures do not change with them any more.
+        """Whether ends count as placed once the figures no longer change with them.
 
-        Without friction they hardly do; corrections of finite strain need ends exact as they are.
+        Without friction figures hardly depend on the ends; at finite strain corrections need exact
+        ends, whatever the figures do.
         """
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
     def _is_placed(
         self, layout: Layout, proposed: Layout, *, known: bool, by_figures: bool = False
     ) -> bool:
-        """Return whether the errors of ends of zones are small over the width of the contact.
+        """Return whether the errors of the ends are small relative to the width of the contact.
 
-        Where the figures say how exactly they are placed (``by_figures``), the tolerance will do.
-        Without friction edges of zones that are ``known`` are placed over the length of their
-        boundary layer, if that is less: pressures change within it.
+        If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
+        otherwise a tenth of it. Without friction, the edges of ``known`` zones are placed relative
+        to the boundary layer instead, if it is shorter, as the pressure changes within it.
         """
         most = self.model.tolerance * (1.0 if by_figures else STILL)
         length = layout.width
@@ -234,16 +243,19 @@ class Placing:
         return proposed.distance(layout) * layout.width <= most * length
 
     def _changes(self, latest: Round, left: Figures | None) -> bool:
-        """Return whether the figures still change with the ends, by more than iterations may."""
+        """Return whether the figures still change with the ends, by more than iterations may leave.
+
+        ``left``: the expected changes; None: unknown, and taken as too large.
+        """
         if left is None:
             return True
         return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
 
     def _exceeds_bound(self, latest: Round) -> bool:
-        """Return whether shear beside a transition exceeds its bound by more than a result may.
+        """Return whether the shear beside a transition exceeds its bound by more than allowed.
 
-        A zone of stick that is too long by delta leaves a shear over its bound in its last element,
-        under a stiff skin a large one, for it answers the slightest stretch with shear.
+        A stick zone that is too long by delta has a shear beyond the bound in its last element;
+        under a stiff skin, where the slightest stretch causes shear, far beyond it.
         """
         breaks = np.cumsum((0, *latest.mesh.fine.elements))[1:-1]
         x = latest.mesh.inner
@@ -256,8 +268,8 @@ class Placing:
     def _singular(self, latest: Round, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.
 
-        Where unlike surfaces stick up to an edge, the shear has an inverse square root that
-        oscillates, and the pressure follows it.
+        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
+        root in the shear, which the pressure follows.
         """
         if self.nip.friction > 0.0 or layout.states.size > 1:
             return None
@@ -265,13 +277,16 @@ class Placing:
 
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
-        most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
+        most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
         if len(crowding) == 1 and crowding[0] < 1.0:
             most += _MOST_HALVINGS
         return most
 
     def _renewed(self, state: SearchState) -> SearchState:
-        """Evaluate the second order of the last solution and what follows, if it still moves."""
+        """Return the state with the second order evaluated from its last solution.
+
+        It is unchanged if the second order has converged, or is fixed.
+        """
         before = state.before
         if self.kernels.is_fixed or state.is_quiet:
             return state
@@ -285,7 +300,7 @@ class Placing:
         )
 
     def _solved_on(self, state: SearchState, shape: Shape) -> tuple[Round, Layout]:
-        """Solve on one mesh; return the solution, and where it puts the ends of zones."""
+        """Return the solution on one mesh, and the zones with the ends that it proposes."""
         layout, before = state.layout, state.before
         mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
@@ -298,7 +313,7 @@ class Placing:
 def _untried(
     others: Iterable[SearchState], layout: Layout, tried: set[bytes]
 ) -> SearchState | None:
-    """Return the first zones that were not tried before; fewer than now are tried again."""
+    """Return the first candidate not tried before; one with fewer zones than now may be retried."""
     for other in others:
         if other.layout.states.size < layout.states.size or other.layout.key not in tried:
             return other
@@ -306,34 +321,34 @@ def _untried(
 
 
 def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:
-    """Return what the last move of the ends changed of the figures, over its length."""
+    """Return the change of the figures by the last move of the ends, per length of the move."""
     step = now[0].distance(before[0])
     return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)
 
 
 def _is_false_at_edge(latest: Round) -> bool:
-    """Return whether the pressure at an edge is that of a misplaced one."""
+    """Return whether the pressure at an edge shows that the edge is misplaced."""
     pressure = latest.state.pressure
     return latest.mesh.pulls_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
 
 
 def _can_be_placed(layout: Layout) -> bool:
-    """Return whether zones have a length, and are not so many that they only tell of errors."""
+    """Return whether all zones have a length, and are not too many."""
     return layout.is_proper and not are_too_many(layout.states.size)
 
 
 def are_too_many(zones: int) -> bool:
-    """Return whether the least shares of so many zones exceed a mesh; errors make so many."""
+    """Return whether there are more zones than a mesh can resolve; only errors make that many."""
     return zones * LEAST_SHARE_OF_A_ZONE > 1.0
 
 
 def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
-    """Return whether nodes of any zone crowd more, or other zones."""
+    """Return whether nodes crowd more in any zone of ``one``, or the number of zones differs."""
     return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
 
 
 def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:
-    """Make a mesh whose nodes lie at the ends of zones; ``shortest``: see `subdivided`."""
+    """Return the mesh with nodes at the ends of zones; ``shortest``: see `subdivided`."""
     nodes = cosine_nodes(layout.breaks, *shape)
     edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
     return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest, edges))
@@ -342,7 +357,7 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
 def _state_at(
     proposed: Layout, latest: Round, state: SearchState, misplacement: float
 ) -> SearchState:
-    """Return the search with the ends of zones at their proposed places."""
+    """Return the state of the search with the ends of zones at their proposed places."""
     figures = replace(latest.figures, nip_width=proposed.width)
     latest = replace(latest, zones=proposed.zones, figures=figures)
     return SearchState(proposed, latest, state.change, state.expected, misplacement)

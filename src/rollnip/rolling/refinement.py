@@ -1,4 +1,4 @@
-"""From a guess of the width to a solution: zones, then their ends, on ever finer meshes."""
+"""From an estimate of the width to a verified solution: zones node by node, then free ends."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.surfaces import PairKernels
 
 BY_NODES = Safeguarded()
-"""Solver of a contact problem whose states are sought node by node."""
+"""Solver that seeks the states of a contact problem node by node."""
 SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
 COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
-"""Those of them where the contact itself is only a coarse one."""
+"""The sizes for a contact that need only be coarse."""
 
 
 class IsTooDeep(Protocol):
-    """A function that judges how far layers are pressed in, `no_nip.is_too_deep` of one nip."""
+    """A function that judges how far layers are compressed: `no_nip.is_too_deep` for one nip."""
 
     def __call__(self, found: Round, *, is_rough: bool) -> bool:
-        """Return whether a layer is pressed in too far by a solution, a rough one or not."""
+        """Return whether a solution presses a layer in too far; ``is_rough``: a rough solution."""
         ...
 
 
@@ -48,23 +48,23 @@ def refine(
     sizes: tuple[int, ...] = SIZES,
     is_too_deep: IsTooDeep | None = None,
 ) -> Round:
-    """Solve on ever better meshes until the estimated error is below the tolerance.
+    """Return a solution with an estimated error below the tolerance, if one is found.
 
-    Contact, stick and slip are sought node by node, on a coarse mesh that reaches beyond a guess of
-    the contact, and the zones found are given to free ends to begin with (`with_free_ends`). Where
-    these do not verify a solution, zones are sought again on ever finer meshes.
+    Zones are first sought node by node, on a coarse mesh that extends beyond the estimated contact.
+    Their ends are then a free boundary (`with_free_ends`). If that gives no verified solution,
+    zones are sought again on the next finer mesh.
 
     Parameters
     ----------
-    half_width : first guess [mm].
-    sizes : elements of the meshes on which zones are sought, in turn.
-    is_too_deep : tells which solutions no finer mesh makes possible: such a one is returned as it
-        is; None: none is.
+    half_width : first estimate [mm].
+    sizes : numbers of elements of the meshes on which zones are sought, in turn.
+    is_too_deep : tells which solutions no finer mesh can make possible; such a one is returned as
+        it is. None: do not check.
 
     Returns
     -------
-    A verified solution; else the best one with free ends or, where there is none, the last one
-    node by node, of those that have settled if any has: a start whose ends were not found.
+    A verified solution; otherwise the last one with free ends; if there is none, the last one
+    found node by node, preferably one that has settled.
     """
     best: Round | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
@@ -81,7 +81,7 @@ def refine(
 
 
 def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Round | None:
-    """Solve with zones whose ends are free, from those of a solution node by node."""
+    """Return the solution with free ends, starting from the zones of one found node by node."""
     layout, count = Layout.of(located.zones), located.mesh.inner.size
     if layout is None:
         return None
@@ -95,9 +95,11 @@ def by_nodes(
     half_width: float,
     sizes: tuple[int, ...],
 ) -> Iterator[Round]:
-    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any.
+    """Yield the solution found node by node on each of the mesh sizes.
 
-    Of each size comes the last solution that has settled; one that has not only before any has.
+    For each size that is the last solution that has settled. One that has not settled is yielded
+    only as long as none has. The sequence ends early where nothing is pressed, or friction cannot
+    carry the prescribed traction.
     """
     placing = Placing(nip, model, kernels)
     before: Round | None = None
@@ -113,7 +115,7 @@ def by_nodes(
 
 
 def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
-    """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
+    """Return the solution node by node on the next finer mesh; None if there is no finer one."""
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
@@ -124,9 +126,9 @@ def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) 
 def _on(
     placing: Placing, half_width: float, count: int, before: Round | None
 ) -> tuple[Round, Round | None]:
-    """Solve node by node on meshes of one size, each dense at the ends that the last one found.
+    """Return the last solution node by node at one mesh size, and the last that has settled.
 
-    Return the last solution, and the last one that has settled.
+    Each mesh is dense at the ends of zones that the previous one found.
     """
     last: Round | None = None
     for _ in range(MOST_MESHES):
@@ -144,7 +146,7 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
         around = Layout.around(Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width)
     else:
         zones = before.zones
-        if are_too_many(len(zones)):  # the mesh is dense at both edges only
+        if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.around(zones, NEAR_ENOUGH * before.figures.nip_width)
     mesh = placing.mesh_around(around, count, holding(kernels, before))
@@ -156,11 +158,11 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
 
 
 def _zones_are_known(placing: Placing, latest: Round, before: Round | None) -> bool:
-    """Return whether zones are known well enough to place their ends.
+    """Return whether the zones are known well enough to place their ends.
 
-    The first mesh of a size has short elements at the edges of the contact, but at transitions or
-    at boundary layers shorter than its elements only a second one has. Second-order terms that
-    each mesh holds from the one before must not move an end by more than an element.
+    The first mesh of a size is dense at the edges only. It takes a second one to be dense at
+    transitions, or in boundary layers shorter than the elements. If each mesh holds the
+    second-order terms of the one before, no end may have moved by more than an element.
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
     if placing.kernels.is_fixed:

@@ -1,4 +1,4 @@
-"""Which zones a contact has: what a solution says of its own."""
+"""The search for the zones of a contact: which other zones a solution calls for."""
 
 from __future__ import annotations
 
@@ -29,10 +29,11 @@ from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 NEAR_ENOUGH = 0.1
-"""How far ends may be off, over the width of the contact, to begin with and to see what slips.
+"""Largest misplacement of ends, over the width, with which a solution shows what slips.
 
-Likewise the room beside edges that are not known yet, and the relative change of a half-width or
-of a correction with which a contact is still a start for the next one.
+It is also the misplacement assumed initially, the free surface beside estimated edges, and the
+relative change of a half-width or a correction up to which a contact is an initial guess for the
+next one.
 """
 
 
@@ -42,14 +43,14 @@ class SearchState:
 
     Attributes
     ----------
-    layout : where the zones are thought to be.
+    layout : the zones to solve with next.
     before : the last solution.
     change : of the second-order terms when the second order of "second" was last evaluated, over
         the tolerance.
-    expected : the change that all further evaluations would add up to, over the tolerance.
-    misplacement : of the ends of zones at most, over the width of the contact.
-    left : what that may still change of each figure; None: not known.
-    effect : what ends misplaced by the width would change of each figure; None: not known.
+    expected : sum of the changes that further evaluations would make, over the tolerance.
+    misplacement : largest error of the ends of zones, over the width of the contact.
+    left : change of each figure that this misplacement may cause; None: not known.
+    effect : change of each figure per misplacement of the ends, over the width; None: not known.
     """
 
     layout: Layout
@@ -62,13 +63,13 @@ class SearchState:
 
     @property
     def is_quiet(self) -> bool:
-        """Return whether further evaluations of the second order would change too little."""
+        """Return whether further evaluations of the second order would change it too little."""
         return self.expected <= 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class ZoneSearch:
-    """The search for the zones of a nip, for one model and its influence functions."""
+    """The rules by which a solution shows that the zones of a nip are others."""
 
     nip: Nip
     model: Model
@@ -83,14 +84,16 @@ class ZoneSearch:
         is_placed: bool,
         is_near: bool,
     ) -> Iterator[SearchState]:
-        """Give the other zones that a solution calls for; none where it agrees with its own.
+        """Yield the other zones that a solution calls for, in the order to try them.
+
+        There are none if the solution is consistent with its own zones.
 
         Parameters
         ----------
         latest : the solution.
-        zones : its zones, and with their ends where the solution puts them.
-        ends : what meshes with the same zones have shown.
-        is_placed, is_near : whether the ends lie where they should, or nearly.
+        zones : its zones, and the same with the ends where the solution puts them.
+        ends : the search for the ends of these zones.
+        is_placed, is_near : whether the ends are placed, or nearly so.
         """
         layout, proposed = zones
         keeps_stick = _keeps_stick(latest)
@@ -104,7 +107,7 @@ class ZoneSearch:
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
-            # The ends of the same zones move without that.
+            # Like zones are no news: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):
                 yield found
         if not is_placed:
@@ -118,13 +121,14 @@ class ZoneSearch:
                 yield SearchState(parted, latest)
 
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
-        """Return the states that a solution calls for; None where nodes in contact have them.
+        """Return the states that a solution calls for; None if no node in contact changes.
 
-        Violations up to `STILL` of what the residual of a result may have are no reason for another
-        state: with all of that, zones of slip at edges are missed on which the creepage of a wide,
-        thin covering depends. At finite strain all of it is none, for the correction may leave it.
-        Nor are those of the nodes next to the end of a zone, which may be misplaced. ``whole``:
-        whether contact is examined too; until the edges are placed, only stick and slip.
+        Violations up to `STILL` times the tolerance change no state. If all of the tolerance were
+        allowed, slip zones at edges would be missed on which the creepage of a wide, thin covering
+        depends. At finite strain all of it is allowed, as the correction may leave as much. Nodes
+        next to the ends of zones do not count, as the ends may be misplaced.
+
+        ``whole``: whether to check contact too; until the edges are placed, only stick and slip.
         """
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
@@ -132,18 +136,21 @@ class ZoneSearch:
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
-        differs[ends] = False  # ends belong to two zones alike
+        differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
         return next_slip(latest.problem, latest.state, slack) if whole else wanted
 
     def pulls(self, latest: Round) -> bool:
-        """Return whether surfaces in contact pull at each other, but in the elements at edges."""
+        """Return whether there is tension in the contact, outside the elements at edges."""
         return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 
     def parted(self, latest: Round, layout: Layout) -> Layout | None:
-        """Return the zones with a free one where the surfaces pull hardest; None if not in one."""
+        """Return the zones with a free zone where the tension is highest.
+
+        Return None where the interval under tension is not within one zone.
+        """
         lowest, pulls = int(np.argmin(latest.pressure)), latest.pressure < 0.0
         first, last = next(run for run in runs(pulls) if run[0] <= lowest <= run[1])
         return layout.parted(float(latest.x[first]), float(latest.x[last]))
@@ -151,9 +158,10 @@ class ZoneSearch:
     def between_edges(
         self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
     ) -> SearchState | None:
-        """Find the zones between known edges, where a solution does not agree with its own.
+        """Return the stick and slip zones between given edges, by the active set.
 
-        Return None where the nodes keep their states, or where the zones have no layout.
+        It holds the contact set, and starts from the states ``wanted`` or, if None, those of the
+        solution. Return None where the nodes keep their states, or the zones have no layout.
         """
         given = latest.state.states
         found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
@@ -169,9 +177,9 @@ class ZoneSearch:
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
     def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout | None:
-        """Return the layout with slip at edges, where it has a length beyond the errors of edges.
+        """Return the layout with slip zones added at edges that the solution sticks up to.
 
-        Return None where there is none.
+        Return None if none would be as long as the shortest relevant zone.
         """
         if self.nip.friction == 0.0:
             return None
@@ -185,5 +193,5 @@ class ZoneSearch:
 
 
 def _keeps_stick(latest: Round) -> bool:
-    """Return whether one zone of stick must be left, from which a wanted traction is found."""
+    """Return whether a stick zone must be left, as a prescribed traction needs one."""
     return latest.problem.control.traction is not None

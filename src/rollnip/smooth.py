@@ -16,9 +16,9 @@ from rollnip._sealed import sealed
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
+    MeshSolution,
     PairKernels,
     Powers,
-    Round,
     claims,
     fields_at,
     further_claims,
@@ -41,7 +41,7 @@ class SmoothSolution(Solution):
     kernels : the influence functions of both rollers.
     """
 
-    final: Round = field(repr=False, kw_only=True)
+    final: MeshSolution = field(repr=False, kw_only=True)
     kernels: PairKernels = field(repr=False, kw_only=True)
 
     @property

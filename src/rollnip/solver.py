@@ -24,9 +24,9 @@ from rollnip.no_nip import impossible, is_too_deep
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
     Ended,
+    MeshSolution,
     Nearby,
     PairKernels,
-    Round,
     half_width_guess,
     has_grip,
     pair_kernels,
@@ -183,7 +183,7 @@ def _solved(
     )
 
 
-def _without_solution(nip: Nip, model: Model, final: Round) -> str:
+def _without_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
     """Return why the iteration for finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one: the model never depends on an error
@@ -230,7 +230,7 @@ def _how_far(ended: Ended) -> str:
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache, near: Solution | None
-) -> tuple[PairKernels, Round]:
+) -> tuple[PairKernels, MeshSolution]:
     """Return the influence functions and the last round of refinement."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
@@ -248,7 +248,7 @@ def _nearby(near: Solution | None) -> Nearby | None:
     return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
 
 
-def _require_grip(nip: Nip, final: Round) -> None:
+def _require_grip(nip: Nip, final: MeshSolution) -> None:
     """Raise where the wanted traction is more than friction can carry: the nip would spin."""
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
@@ -266,14 +266,14 @@ def _require_grip(nip: Nip, final: Round) -> None:
     )
 
 
-def _may_spin(nip: Nip, final: Round) -> bool:
+def _may_spin(nip: Nip, final: MeshSolution) -> bool:
     """Return whether an unsettled round takes at least the traction that friction can carry."""
     wanted = final.problem.control.traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
 
 
-def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+def _verdict(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """Return whether the solution is valid, and a sentence that says so or what to do."""
     if not final.settled and _may_spin(nip, final):
         return False, (
@@ -315,7 +315,7 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
-def _too_thin(nip: Nip, final: Round) -> str:
+def _too_thin(nip: Nip, final: MeshSolution) -> str:
     """Return a sentence on a covering that is too thin and incompressible for the elements."""
     half = 0.5 * final.figures.nip_width
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):

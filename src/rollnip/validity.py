@@ -19,7 +19,7 @@ from rollnip.model import FINITE, RINGS, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Layer, Roller, Side
-from rollnip.rolling import Round, surface_strain_in_nip
+from rollnip.rolling import MeshSolution, surface_strain_in_nip
 from rollnip.volume import volume_reservations
 
 NIP_STRAIN = 0.15
@@ -66,7 +66,7 @@ class StrainSizes:
     skin: float
 
     @classmethod
-    def of(cls, nip: Nip, model: Model, final: Round) -> StrainSizes:
+    def of(cls, nip: Nip, model: Model, final: MeshSolution) -> StrainSizes:
         """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
         if model.geometry == "finite":  # of all orders: nothing is left out
@@ -75,7 +75,7 @@ class StrainSizes:
 
 
 def validity_reservations(
-    nip: Nip, model: Model, final: Round, strains: StrainSizes
+    nip: Nip, model: Model, final: MeshSolution, strains: StrainSizes
 ) -> tuple[Reservation, ...]:
     """Return reservations on a solution: what is exceeded, and what it costs."""
     rollers = _rollers(nip)
@@ -99,7 +99,7 @@ def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:
     return ("upper", nip.upper), ("lower", nip.lower)
 
 
-def _nip_strain(nip: Nip, final: Round) -> Reservation | None:
+def _nip_strain(nip: Nip, final: MeshSolution) -> Reservation | None:
     return pressed_in(nip, final.state.approach)
 
 
@@ -142,7 +142,7 @@ def _thickness_ratio(side: Side, roller: Roller, model: Model) -> Reservation | 
     return Reservation(kind, sentence, figures, side, excess=ratio / limit)
 
 
-def _contact_angle(nip: Nip, final: Round) -> Reservation | None:
+def _contact_angle(nip: Nip, final: MeshSolution) -> Reservation | None:
     radius = min(nip.upper.radius, nip.lower.radius)
     angle = 0.5 * final.figures.nip_width / radius
     if angle <= CONTACT_ANGLE:
@@ -169,7 +169,7 @@ def _surface_strain(largest: float) -> Reservation | None:
     )
 
 
-def second_share(nip: Nip, final: Round) -> float:
+def second_share(nip: Nip, final: MeshSolution) -> float:
     """Return the largest second-order indentation in the contact over the approach."""
     if final.mesh.kernels.is_linear:
         return 0.0
@@ -201,7 +201,7 @@ def _second_order(share: float) -> Reservation | None:
     )
 
 
-def _skin_stretch(nip: Nip, final: Round) -> float:
+def _skin_stretch(nip: Nip, final: MeshSolution) -> float:
     """Return how far the stretch of stiff top layers may be off by terms of third order.
 
     A stiff top layer that turns by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
@@ -285,7 +285,7 @@ def _flat_half_space(side: Side, roller: Roller, model: Model) -> Reservation | 
     )
 
 
-def _thin_top_layer(side: Side, roller: Roller, final: Round) -> Reservation | None:
+def _thin_top_layer(side: Side, roller: Roller, final: MeshSolution) -> Reservation | None:
     if not roller.layers:
         return None
     largest = float(np.max(np.diff(final.nodes[4:-4]), initial=0.0))
@@ -302,7 +302,9 @@ def _thin_top_layer(side: Side, roller: Roller, final: Round) -> Reservation | N
     )
 
 
-def _materials(side: Side, roller: Roller, nip: Nip, final: Round) -> Iterator[Reservation | None]:
+def _materials(
+    side: Side, roller: Roller, nip: Nip, final: MeshSolution
+) -> Iterator[Reservation | None]:
     for number, material in enumerate(roller.materials, start=1):
         if isinstance(material, LossFactor):
             yield Reservation(
@@ -344,7 +346,7 @@ def energies_left_out(side: Side, roller: Roller) -> list[Reservation]:
     ]
 
 
-def _dwell_time(nip: Nip, final: Round) -> float:
+def _dwell_time(nip: Nip, final: MeshSolution) -> float:
     return final.figures.nip_width / (nip.speed or inf)
 
 

@@ -10,7 +10,7 @@ from math import inf, isnan
 
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling import Round, model_shares, relative_claims
+from rollnip.rolling import MeshSolution, model_shares, relative_claims
 from rollnip.rolling.changes import ROUNDING
 
 FINEST_OF_FINITE = Model().tolerance
@@ -34,7 +34,7 @@ WORDS: Mapping[str, str] = {
 """Words for the figures that the tolerance is for."""
 
 
-def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+def verdict(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence on them.
 
     At finite strain the error of the model meets a tolerance of 1e-3 or more, and does not meet a

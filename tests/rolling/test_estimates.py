@@ -15,7 +15,7 @@ from rollnip.rolling.estimates import (
     zone_excess,
 )
 from rollnip.rolling.further import further_sizes
-from rollnip.rolling.round import Figures, Further
+from rollnip.rolling.mesh_solution import Figures, Further
 
 
 @pytest.fixture

@@ -32,14 +32,11 @@ from rollnip.rolling.claimed_errors import (
 )
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
-from rollnip.rolling.nearby import Nearby
-from rollnip.rolling.power_balance import Powers, powers, rates_of
-from rollnip.rolling.refinement import refine
-from rollnip.rolling.round import (
+from rollnip.rolling.mesh_solution import (
     Ended,
     Figures,
     Further,
-    Round,
+    MeshSolution,
     creepage_scale,
     excess,
     has_grip,
@@ -47,6 +44,9 @@ from rollnip.rolling.round import (
     peak_pressure,
     peaks_alike,
 )
+from rollnip.rolling.nearby import Nearby
+from rollnip.rolling.power_balance import Powers, powers, rates_of
+from rollnip.rolling.refinement import refine
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     PairKernels,
@@ -59,11 +59,11 @@ __all__ = [
     "Ended",
     "Figures",
     "Further",
+    "MeshSolution",
     "Nearby",
     "PairFields",
     "PairKernels",
     "Powers",
-    "Round",
     "claims",
     "creepage_scale",
     "excess",

@@ -43,9 +43,9 @@ from rollnip.rolling.held import (
     solved_next,
 )
 from rollnip.rolling.iterations import change_of, with_residual
+from rollnip.rolling.mesh_solution import Ended, MeshSolution
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.refinement import IsTooDeep
-from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
@@ -85,7 +85,7 @@ def refine_all_orders(
     cache: KernelCache,
     is_too_deep: IsTooDeep,
     near: Nearby | None = None,
-) -> tuple[PairKernels, Round]:
+) -> tuple[PairKernels, MeshSolution]:
     """Solve a contact by iteration with the correction of all orders.
 
     Where a nip much like it has been solved, iterations start from that solution.
@@ -131,7 +131,7 @@ def _from_nearby(
     sizes: tuple[float, float],
     near: Nearby | None,
     is_too_deep: IsTooDeep,
-) -> tuple[PairKernels, Round] | None:
+) -> tuple[PairKernels, MeshSolution] | None:
     """Solve from the solution of a nip near by; None where there is none or it is too far.
 
     ``sizes``: half-width of the contact [mm] and strain of the surface.
@@ -228,13 +228,13 @@ class Least(Generic[Found]):
 def _iterated(
     nip: Nip,
     model: Model,
-    begun: tuple[PairKernels, Round],
+    begun: tuple[PairKernels, MeshSolution],
     orders: AllOrders,
     stage: Stage,
     is_too_deep: IsTooDeep,
     *,
     is_near: bool = False,
-) -> tuple[PairKernels, Round] | Ended:
+) -> tuple[PairKernels, MeshSolution] | Ended:
     """Solve the contact and evaluate its correction by iteration.
 
     On a coarse mesh until the changes to come are small, then on a refined one until the contact
@@ -244,7 +244,7 @@ def _iterated(
     """
     kernels, latest = begun
     change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
-    least = Least[tuple[PairKernels, Round]]()
+    least = Least[tuple[PairKernels, MeshSolution]]()
     iterations = 0
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
@@ -286,7 +286,7 @@ def _iterated(
     return least.found
 
 
-def _edges(latest: Round) -> tuple[float, float]:
+def _edges(latest: MeshSolution) -> tuple[float, float]:
     return latest.zones[0].start, latest.zones[-1].stop
 
 
@@ -306,8 +306,8 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
 
 
 def _with_own_correction(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
-) -> Round:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, change: float
+) -> MeshSolution:
     """Return a solution with its violation of the contact conditions under its own correction.
 
     With the stretch of the displacements themselves, and where the conditions are met also with the
@@ -325,12 +325,12 @@ def _with_own_correction(
     return replace(checked, cut=cut)
 
 
-def _with(latest: Round, kernels: PairKernels) -> Round:
+def _with(latest: MeshSolution, kernels: PairKernels) -> MeshSolution:
     """Return a solution whose mesh has the correction of some influence functions."""
     return replace(latest, mesh=latest.mesh.holding(kernels))
 
 
-def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
+def _change(nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution) -> float:
     """Return by how much a correction changes the terms of finite strain of a solution."""
     mesh = _with(latest, kernels).mesh
     own = second_order(nip, model.geometry, mesh, latest.state)

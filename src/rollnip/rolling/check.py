@@ -12,7 +12,7 @@ from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.round import Round, creepage_scale
+from rollnip.rolling.mesh_solution import MeshSolution, creepage_scale
 from rollnip.rolling.surfaces import Array, PairKernels
 
 
@@ -38,13 +38,15 @@ class PairFields:
 
 
 def fields_at(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
 ) -> PairFields:
     """Return the fields of a solution at ``x``, computed from its tractions, delta and xi alone."""
     return _fields(x, nip, geometry, kernels, final, _displacements(x, kernels, final))
 
 
-def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> PairFields:
+def fields_between(
+    nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
+) -> PairFields:
     """Return the fields of a solution at its nodes, halfway between them, and outside the edges."""
     nodes = final.mesh.nodes
     away = places_outside(nodes, final.figures.nip_width)
@@ -67,7 +69,7 @@ def places_outside(nodes: Array, width: float) -> Array:
     return np.asarray(width * 0.5 ** np.arange(np.log2(width / shortest))[::-1])
 
 
-def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
+def _displacements(x: Array, kernels: PairKernels, final: MeshSolution) -> Displacements:
     """Return the displacements of both surfaces at ``x``, to the order of the model."""
     linear = final.mesh.linear_displacements_at(x, final.state)
     if kernels.is_linear:
@@ -83,7 +85,7 @@ def _fields(
     nip: Nip,
     geometry: Geometry,
     kernels: PairKernels,
-    final: Round,
+    final: MeshSolution,
     u: Displacements,
 ) -> PairFields:
     state, flat, held = final.state, u, kernels.held
@@ -106,7 +108,7 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
     return upper + lower
 
 
-def residual(nip: Nip, fields: PairFields, final: Round, shortest: float) -> float:
+def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
     It is the largest of: penetration over the approach; p times gap over peak pressure and
@@ -139,13 +141,15 @@ def _depth(nip: Nip, width: float, approach: float) -> float:
     return at_edge if nip.has_half_space else max(abs(approach), at_edge)
 
 
-def _load_error(nip: Nip, final: Round) -> float:
+def _load_error(nip: Nip, final: MeshSolution) -> float:
     if isinstance(nip.normal, LineLoad):
         return abs(final.figures.load - nip.normal.load) / nip.normal.load
     return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
 
 
-def _friction_errors(nip: Nip, fields: PairFields, final: Round, shortest: float) -> list[float]:
+def _friction_errors(
+    nip: Nip, fields: PairFields, final: MeshSolution, shortest: float
+) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
     over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
@@ -174,7 +178,7 @@ def _intervals_in(x: Array, zone: ContactZone) -> slice:
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
-def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
+def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: MeshSolution) -> float:
     """Return the largest strain of either surface in the contact, averaged over each interval."""
     x = final.nodes[1:]
     u = final.mesh.finer(final.displacements)

@@ -19,8 +19,8 @@ from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.further import further_of, further_sizes
+from rollnip.rolling.mesh_solution import Figures, Further, MeshSolution, creepage_scale
 from rollnip.rolling.power_balance import Powers, rates_of
-from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Relative change of these figures between grids of 12 to 32 points a half-width in "second",
@@ -50,7 +50,7 @@ II, driven with frictions of 2 to 4, by 0.2 of what they change of it.
 _SHARE_OF_RESIDUAL = 0.7
 
 
-def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
+def claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
     """Return the claimed errors of the figures held to the tolerance, each in its own unit.
 
     The error of a prescribed figure is its deviation from the prescribed value. An error is nan
@@ -76,7 +76,9 @@ def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
     return out
 
 
-def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) -> dict[str, float]:
+def further_claims(
+    nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
+) -> dict[str, float]:
     """Return the claimed errors of the figures without a tolerance of their own, in their units.
 
     They are nan where a figure is not defined. ``spent``: the `powers` of the solution.
@@ -131,7 +133,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     return out
 
 
-def traction_slope(final: Round) -> float:
+def traction_slope(final: MeshSolution) -> float:
     """Return the derivative of the traction by the creepage, with the same nodes in stick [N/mm].
 
     It turns an error of the creepage at given traction into one of the traction at given creepage.
@@ -145,7 +147,7 @@ def traction_slope(final: Round) -> float:
     return abs(tractions[1] - tractions[0])
 
 
-def power_left(creepage: float, traction: float, final: Round) -> float:
+def power_left(creepage: float, traction: float, final: MeshSolution) -> float:
     """Return the power due to the error of the creepage and to the residual gap, over V [N/mm].
 
     The traction works on the error of the creepage, and the pressure on a gap or overlap that
@@ -157,7 +159,7 @@ def power_left(creepage: float, traction: float, final: Round) -> float:
 
 
 def _with_model(
-    further: Further, nip: Nip, geometry: Geometry, final: Round, spent: Powers
+    further: Further, nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
 ) -> Further:
     """Return the errors, raised to those of the geometry model where these are larger."""
     if geometry not in FINITE or final.further_error is None:
@@ -168,7 +170,9 @@ def _with_model(
     return Further(*np.maximum(further.array(), left).tolist())
 
 
-def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: Round) -> float:
+def _lost(
+    further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: MeshSolution
+) -> float:
     """Return the error of the viscous loss, over V [N/mm]."""
     rates = rates_of(geometry, final.state.creepage)
     error = rates[0] * further.lost_upper + rates[1] * further.lost_lower
@@ -178,7 +182,7 @@ def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: 
     return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
 
 
-def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
+def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
     """Return the relative errors of figures that the geometry model leaves, however fine the mesh.
 
     Violations of the contact conditions come from the waves cut and from the last change of the
@@ -201,7 +205,7 @@ def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]
     return shares
 
 
-def _peaks_at_edge(nip: Nip, final: Round) -> bool:
+def _peaks_at_edge(nip: Nip, final: MeshSolution) -> bool:
     """Return whether the pressure peak is closer to an edge than a stiff skin is thick.
 
     Fields there vary over lengths as short as that thickness.
@@ -214,7 +218,7 @@ def _peaks_at_edge(nip: Nip, final: Round) -> bool:
     return bool(to_edge < min(skin_thickness(nip), 0.25 * (stop - start)))
 
 
-def _is_peak_unresolved(final: Round) -> bool:
+def _is_peak_unresolved(final: MeshSolution) -> bool:
     """Return whether the pressure is largest right at an edge, where it should vanish.
 
     Then the edge is misplaced, or the peak lies between nodes, so that its height is not known.
@@ -255,7 +259,7 @@ def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:
     }
 
 
-def relative_claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
+def relative_claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
     """Return the claimed errors over the sizes of their figures, for figures that are defined."""
     figures, claimed = final.figures, claims(nip, geometry, final)
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):

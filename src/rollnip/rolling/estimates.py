@@ -15,7 +15,7 @@ from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
 from rollnip.rolling.further import further_errors, further_figures, further_sizes
-from rollnip.rolling.round import Figures, Further, Round, creepage_scale
+from rollnip.rolling.mesh_solution import Figures, Further, MeshSolution, creepage_scale
 from rollnip.rolling.surfaces import Array, Mesh
 
 # Order assumed for the errors while there are only two sizes.
@@ -60,13 +60,15 @@ class Size:
         return self.make_further()
 
 
-def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
+def sized(nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array) -> Size:
     """Return the results of the solution on a mesh of ``count`` elements."""
     further = partial(further_figures, nip, model.geometry, latest)
     return Size(count, latest.figures, breaks, further)
 
 
-def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | None) -> Round:
+def with_errors(
+    nip: Nip, latest: MeshSolution, history: list[Size], left: Figures | None
+) -> MeshSolution:
     """Return the solution with the estimated errors of the figures held to the tolerance.
 
     An error is the sum of the discretisation error, what the remaining misplacement of ends may
@@ -110,13 +112,13 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
     return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
-def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
+def with_further_errors(nip: Nip, latest: MeshSolution, history: list[Size]) -> MeshSolution:
     """Return the solution with its estimated errors of the further figures, made on demand."""
     make = partial(_further_error, nip, latest, tuple(history))
     return replace(latest, make_further_error=make)
 
 
-def _further_error(nip: Nip, latest: Round, history: Sequence[Size]) -> Further | None:
+def _further_error(nip: Nip, latest: MeshSolution, history: Sequence[Size]) -> Further | None:
     """Return the estimated errors of the further figures; None where there is a single mesh.
 
     Edges misplaced as in `with_errors` change tractions by twice the misplacement over the width,
@@ -132,7 +134,7 @@ def _further_error(nip: Nip, latest: Round, history: Sequence[Size]) -> Further 
     return Further(*(error.array() + more).tolist())
 
 
-def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
+def estimated_error(nip: Nip, latest: MeshSolution, history: list[Size]) -> Figures:
     """Return the estimated discretisation error of each figure from its changes between meshes.
 
     It is inf where there is a single mesh. No error is estimated below the least error that meshes

@@ -24,8 +24,8 @@ from rollnip.rolling.estimates import (
     zone_excess,
 )
 from rollnip.rolling.iterations import STILL, converge, with_residual
+from rollnip.rolling.mesh_solution import MeshSolution, excess
 from rollnip.rolling.placing import Placing
-from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
@@ -40,7 +40,7 @@ _LEAST_GROWTH = 1.2  # of the number of elements from size to size
 ENOUGH_FOR_ZONES = 100
 
 
-def is_verified(found: Round | None, model: Model) -> TypeGuard[Round]:
+def is_verified(found: MeshSolution | None, model: Model) -> TypeGuard[MeshSolution]:
     """Return whether there is a solution whose residual was evaluated and meets the tolerance."""
     return found is not None and found.residual <= model.tolerance
 
@@ -50,10 +50,10 @@ def with_free_ends(
     model: Model,
     kernels: PairKernels,
     layout: Layout,
-    before: Round,
+    before: MeshSolution,
     misplacement: float,
     fewest: int = 0,
-) -> Round | None:
+) -> MeshSolution | None:
     """Return the solution with free ends, on meshes refined until its error meets the tolerance.
 
     Parameters
@@ -79,12 +79,14 @@ def with_free_ends(
         return None
 
 
-def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -> Round | None:
+def _refined(
+    placing: Placing, state: SearchState, count: int, *, known: bool
+) -> MeshSolution | None:
     nip, model = placing.nip, placing.model
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     most = max(most, _MOST_TIMES_FIRST * count)
-    best: Round | None = None
+    best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
     shown = _FIRST_EXCESS  # error, residual or roughness, over what is allowed
     while count <= most:
@@ -133,14 +135,14 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     return int(max(count * growth, claimed)) + 1
 
 
-def as_cosines(latest: Round) -> int:
+def as_cosines(latest: MeshSolution) -> int:
     """Return the number of elements that a solution would have without crowding of nodes."""
     fine = latest.mesh.fine
     shares = map(more_elements, fine.crowding)
     return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
-def _roughness(nip: Nip, model: Model, latest: Round) -> float:
+def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
     """Return the interpolation error of the tractions, over what is allowed.
 
     Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong.

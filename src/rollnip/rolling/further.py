@@ -10,8 +10,8 @@ from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
+from rollnip.rolling.mesh_solution import Further, MeshSolution, peak_pressure
 from rollnip.rolling.power_balance import Powers, powers
-from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array
 
 _LEAST_SIZE = 0.05  # least size for relative errors, over the largest value a figure may have
@@ -21,12 +21,12 @@ _LEAST_SIZE = 0.05  # least size for relative errors, over the largest value a f
 _LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
-def further_figures(nip: Nip, geometry: Geometry, found: Round) -> Further:
+def further_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> Further:
     """Return the further figures of a solution."""
     return further_of(powers(nip, geometry, found), found)
 
 
-def further_of(spent: Powers, found: Round) -> Further:
+def further_of(spent: Powers, found: MeshSolution) -> Further:
     """Return the further figures of a solution, given its powers."""
     mesh, state = found.mesh, found.state
     _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
@@ -42,7 +42,9 @@ def further_of(spent: Powers, found: Round) -> Further:
     )
 
 
-def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]) -> Further | None:
+def further_errors(
+    nip: Nip, latest: MeshSolution, sizes: Sequence[tuple[int, Further]]
+) -> Further | None:
     """Return the estimated errors of the further figures from their changes between meshes.
 
     As for `Figures`, the last change is taken with the order that the meshes show, earlier changes
@@ -73,7 +75,7 @@ def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]
     return Further(*error.tolist())
 
 
-def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:
+def further_sizes(nip: Nip, latest: MeshSolution, figures: Further) -> Array:
     """Return the sizes that errors of `Further` are relative to, (8,).
 
     Each is at least a share of the largest value that the figure may have, as a traction or loss

@@ -24,6 +24,7 @@ from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
+from rollnip.rolling.mesh_solution import MeshSolution, excess
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
@@ -34,7 +35,6 @@ from rollnip.rolling.refinement import (
     placed,
     refine,
 )
-from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState
 from rollnip.rolling.surfaces import PairKernels
 
@@ -81,7 +81,7 @@ def begin(
     half_width: float,
     second: Responses | None = None,
     is_too_deep: IsTooDeep | None = None,
-) -> tuple[PairKernels, Round, Stage]:
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
 
     And the influence functions with the correction that it holds: that of ``kernels`` or, with
@@ -116,8 +116,8 @@ def begin(
 
 
 def refined_at_once(
-    nip: Nip, model: Model, second: PairKernels, coarse: Round
-) -> tuple[PairKernels, Round, Stage]:
+    nip: Nip, model: Model, second: PairKernels, coarse: MeshSolution
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Return a refined contact that holds the second order of a coarse one, and what holds it.
 
     The coarse one itself where the ends of zones are not found on finer meshes.
@@ -130,8 +130,8 @@ def refined_at_once(
 
 
 def _holding_second_order(
-    nip: Nip, model: Model, second: PairKernels, latest: Round
-) -> tuple[PairKernels, Round]:
+    nip: Nip, model: Model, second: PairKernels, latest: MeshSolution
+) -> tuple[PairKernels, MeshSolution]:
     """Return influence functions that hold the second order of a solution, and it with them.
 
     Of its waves those are left out that are too short at the strain of the solution.
@@ -149,8 +149,13 @@ def _holding_second_order(
 
 
 def solved_next(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, progress: Progress
-) -> tuple[Round, Stage]:
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    latest: MeshSolution,
+    stage: Stage,
+    progress: Progress,
+) -> tuple[MeshSolution, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
     Where that fails the round has not settled; but nodes of a first mesh go on there until the
@@ -163,7 +168,7 @@ def solved_next(
     return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 
-def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
+def _enough_for_better(model: Model, latest: MeshSolution, stage: Stage) -> float:
     """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
     if stage is Stage.REFINED:
         return -inf
@@ -175,8 +180,8 @@ def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
 
 
 def _better(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage
-) -> tuple[Round, Stage]:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: Stage
+) -> tuple[MeshSolution, Stage]:
     """Solve on better meshes, with a correction that is held and nearly right."""
     if latest.is_placed:
         found = _refined(nip, model, kernels, latest)
@@ -195,13 +200,15 @@ def coarsely(model: Model) -> Model:
     return replace(model, tolerance=max(model.tolerance, _COARSELY))
 
 
-def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution) -> MeshSolution:
     """Refine a solution with free ends on a coarse mesh, with a correction that is held."""
     found = _with_free_ends(nip, model, kernels, latest)
     return found or refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
-def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round | None:
+def _with_free_ends(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution | None:
     """Return a verified solution with about the zones of a coarse one; None: there is none."""
     layout = Layout.of(latest.zones)
     if layout is None:
@@ -211,8 +218,8 @@ def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round)
 
 
 def restarted(
-    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round
-) -> tuple[PairKernels, Round, Stage]:
+    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: MeshSolution
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Begin again: with a mean of corrections or, if it leads astray, the last one."""
     half_width = 0.5 * latest.figures.nip_width
     for kernels in both if both[0].held is not both[1].held else both[:1]:
@@ -223,8 +230,8 @@ def restarted(
 
 
 def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
-) -> Round:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: Stage, change: float
+) -> MeshSolution:
     """Solve with another correction; where that fails the round has not settled."""
     if not latest.is_placed:
         if change > NEAR_ENOUGH:
@@ -239,7 +246,9 @@ def _solved_again(
     return replace(found, error=latest.error, make_further_error=latest.make_further_error)
 
 
-def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def _placed_again(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution:
     """Solve with another correction, which moves free ends of zones.
 
     These move to where the last solution put them; nodes that crowd at a boundary layer need ends

@@ -14,7 +14,7 @@ from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 MOST_ITERATIONS = 40
@@ -33,7 +33,7 @@ class Method(Protocol):
         ...
 
 
-def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
+def holding(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
     """Return influence functions that hold the second order of the previous mesh; none at first.
 
     The second order is small and smooth, so a few updates are enough. The last mesh is checked with
@@ -42,7 +42,7 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
     return held_from(kernels, before if before is not None and before.settled else None)
 
 
-def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
+def held_from(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
     """Return influence functions that hold the second order of a solution, if they model it."""
     if kernels.is_fixed:
         return kernels
@@ -59,7 +59,7 @@ def solve_on_mesh(
     method: Method,
     still: float,
     zones: tuple[ContactZone, ...] | None = None,
-) -> Round:
+) -> MeshSolution:
     """Return the solution on one mesh, by fixed-point iteration of the second-order terms.
 
     Parameters
@@ -87,7 +87,9 @@ def solve_on_mesh(
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
     settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
-    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
+    return MeshSolution(
+        mesh, problem, state, second, zones, figures, unknown, steps, settled, change
+    )
 
 
 def change_of(
@@ -119,10 +121,10 @@ def figures_of(
 def converge(
     nip: Nip,
     model: Model,
-    latest: Round,
+    latest: MeshSolution,
     method: Method,
     zones: tuple[ContactZone, ...] | None = None,
-) -> Round:
+) -> MeshSolution:
     """Return a solution iterated until its second-order terms change no more than a result's may.
 
     ``zones``: see `solve_on_mesh`.
@@ -134,7 +136,9 @@ def converge(
     return replace(still, error=latest.error, make_further_error=latest.make_further_error)
 
 
-def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def with_residual(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution:
     """Return a solution with its residual: of the contact conditions, on more points.
 
     Where the second order follows the tractions, the mesh of the result holds that of its own

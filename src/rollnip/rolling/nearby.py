@@ -15,7 +15,7 @@ from rollnip.finite import Equilibrium
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.free_ends import is_verified, with_free_ends
-from rollnip.rolling.round import Round
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
@@ -34,7 +34,7 @@ class Nearby:
 
     nip: Nip
     kernels: PairKernels
-    final: Round
+    final: MeshSolution
 
     @property
     def bodies(self) -> tuple[Equilibrium | None, Equilibrium | None]:
@@ -44,7 +44,7 @@ class Nearby:
 
     def begun(
         self, nip: Nip, model: Model, kernels: PairKernels, half_width: float
-    ) -> tuple[PairKernels, Round] | None:
+    ) -> tuple[PairKernels, MeshSolution] | None:
         """Return the contact of another nip with the correction of this one held.
 
         Returns

@@ -39,7 +39,7 @@ from rollnip.rolling.iterations import (
     solve_on_mesh,
 )
 from rollnip.rolling.lengths import boundary_layer
-from rollnip.rolling.round import Figures, Round, excess
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, excess
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
@@ -242,7 +242,7 @@ class Placing:
             length = min(length, self.boundary)
         return proposed.distance(layout) * layout.width <= most * length
 
-    def _changes(self, latest: Round, left: Figures | None) -> bool:
+    def _changes(self, latest: MeshSolution, left: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.
 
         ``left``: the expected changes; None: unknown, and taken as too large.
@@ -251,7 +251,7 @@ class Placing:
             return True
         return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
 
-    def _exceeds_bound(self, latest: Round) -> bool:
+    def _exceeds_bound(self, latest: MeshSolution) -> bool:
         """Return whether the shear beside a transition exceeds its bound by more than allowed.
 
         A stick zone that is too long by delta has a shear beyond the bound in its last element;
@@ -265,7 +265,7 @@ class Placing:
         cell = np.searchsorted(x, places)
         return bool(np.isin(cell, (breaks, breaks + 1)).any())
 
-    def _singular(self, latest: Round, layout: Layout) -> Array | None:
+    def _singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.
 
         With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
@@ -299,7 +299,7 @@ class Placing:
             state.layout, replace(before, mesh=mesh, second=second), change, expected
         )
 
-    def _solved_on(self, state: SearchState, shape: Shape) -> tuple[Round, Layout]:
+    def _solved_on(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
         """Return the solution on one mesh, and the zones with the ends that it proposes."""
         layout, before = state.layout, state.before
         mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
@@ -326,7 +326,7 @@ def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures])
     return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)
 
 
-def _is_false_at_edge(latest: Round) -> bool:
+def _is_false_at_edge(latest: MeshSolution) -> bool:
     """Return whether the pressure at an edge shows that the edge is misplaced."""
     pressure = latest.state.pressure
     return latest.mesh.pulls_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
@@ -355,7 +355,7 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
 
 
 def _state_at(
-    proposed: Layout, latest: Round, state: SearchState, misplacement: float
+    proposed: Layout, latest: MeshSolution, state: SearchState, misplacement: float
 ) -> SearchState:
     """Return the state of the search with the ends of zones at their proposed places."""
     figures = replace(latest.figures, nip_width=proposed.width)

@@ -41,7 +41,7 @@ from rollnip.rolling.assemble import (
     slip_intervals,
     stretches,
 )
-from rollnip.rolling.round import Round
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.surfaces import Array
 
 
@@ -88,7 +88,7 @@ def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
     return (1.0, 1.0) if geometry in ("linear", "corrected") else (1.0 + half, 1.0 - half)
 
 
-def powers(nip: Nip, geometry: Geometry, found: Round) -> Powers:
+def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
     """Return the losses and the transmitted work of a solution."""
     mesh, state = found.mesh, found.state
     x, u = mesh.fine.nodes[1:], found.displacements

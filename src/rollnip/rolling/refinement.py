@@ -20,8 +20,8 @@ from rollnip.rolling.iterations import (
     solve_on_mesh,
     with_residual,
 )
+from rollnip.rolling.mesh_solution import MeshSolution, has_grip
 from rollnip.rolling.placing import MOST_MESHES, Placing, are_too_many
-from rollnip.rolling.round import Round, has_grip
 from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.surfaces import PairKernels
 
@@ -35,7 +35,7 @@ COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
 class IsTooDeep(Protocol):
     """A function that judges how far layers are compressed: `no_nip.is_too_deep` for one nip."""
 
-    def __call__(self, found: Round, *, is_rough: bool) -> bool:
+    def __call__(self, found: MeshSolution, *, is_rough: bool) -> bool:
         """Return whether a solution presses a layer in too far; ``is_rough``: a rough solution."""
         ...
 
@@ -47,7 +47,7 @@ def refine(
     half_width: float,
     sizes: tuple[int, ...] = SIZES,
     is_too_deep: IsTooDeep | None = None,
-) -> Round:
+) -> MeshSolution:
     """Return a solution with an estimated error below the tolerance, if one is found.
 
     Zones are first sought node by node, on a coarse mesh that extends beyond the estimated contact.
@@ -66,7 +66,7 @@ def refine(
     A verified solution; otherwise the last one with free ends; if there is none, the last one
     found node by node, preferably one that has settled.
     """
-    best: Round | None = None
+    best: MeshSolution | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
         if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
             return latest
@@ -80,7 +80,9 @@ def refine(
     return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
 
 
-def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Round | None:
+def placed(
+    nip: Nip, model: Model, kernels: PairKernels, located: MeshSolution
+) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node."""
     layout, count = Layout.of(located.zones), located.mesh.inner.size
     if layout is None:
@@ -94,7 +96,7 @@ def by_nodes(
     kernels: PairKernels,
     half_width: float,
     sizes: tuple[int, ...],
-) -> Iterator[Round]:
+) -> Iterator[MeshSolution]:
     """Yield the solution found node by node on each of the mesh sizes.
 
     For each size that is the last solution that has settled. One that has not settled is yielded
@@ -102,7 +104,7 @@ def by_nodes(
     carry the prescribed traction.
     """
     placing = Placing(nip, model, kernels)
-    before: Round | None = None
+    before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
         found, settled = _on(placing, half_width, count, before)
@@ -114,7 +116,9 @@ def by_nodes(
         before = found if found.settled else before
 
 
-def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
+def finer_by_nodes(
+    nip: Nip, model: Model, kernels: PairKernels, before: MeshSolution
+) -> MeshSolution | None:
     """Return the solution node by node on the next finer mesh; None if there is no finer one."""
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
@@ -124,13 +128,13 @@ def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) 
 
 
 def _on(
-    placing: Placing, half_width: float, count: int, before: Round | None
-) -> tuple[Round, Round | None]:
+    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+) -> tuple[MeshSolution, MeshSolution | None]:
     """Return the last solution node by node at one mesh size, and the last that has settled.
 
     Each mesh is dense at the ends of zones that the previous one found.
     """
-    last: Round | None = None
+    last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
         found = _on_one(placing, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
@@ -140,7 +144,9 @@ def _on(
     return found, found if found.settled else last
 
 
-def _on_one(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:
+def _on_one(
+    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+) -> MeshSolution:
     nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
         around = Layout.around(Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width)
@@ -157,7 +163,7 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
     return solve_on_mesh(nip, model, mesh, start, BY_NODES, STILL)
 
 
-def _zones_are_known(placing: Placing, latest: Round, before: Round | None) -> bool:
+def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolution | None) -> bool:
     """Return whether the zones are known well enough to place their ends.
 
     The first mesh of a size is dense at the edges only. It takes a second one to be dense at

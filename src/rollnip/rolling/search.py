@@ -24,7 +24,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.iterations import STILL
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.round import Figures, Round
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
@@ -54,7 +54,7 @@ class SearchState:
     """
 
     layout: Layout
-    before: Round
+    before: MeshSolution
     change: float = inf
     expected: float = inf
     misplacement: float = NEAR_ENOUGH
@@ -77,7 +77,7 @@ class ZoneSearch:
 
     def other_zones(
         self,
-        latest: Round,
+        latest: MeshSolution,
         zones: tuple[Layout, Layout],
         ends: Secants,
         *,
@@ -120,7 +120,7 @@ class ZoneSearch:
             if parted is not None:
                 yield SearchState(parted, latest)
 
-    def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
+    def wanted(self, latest: MeshSolution, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None if no node in contact changes.
 
         Violations up to `STILL` times the tolerance change no state. If all of the tolerance were
@@ -142,11 +142,11 @@ class ZoneSearch:
             return None
         return next_slip(latest.problem, latest.state, slack) if whole else wanted
 
-    def pulls(self, latest: Round) -> bool:
+    def pulls(self, latest: MeshSolution) -> bool:
         """Return whether there is tension in the contact, outside the elements at edges."""
         return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 
-    def parted(self, latest: Round, layout: Layout) -> Layout | None:
+    def parted(self, latest: MeshSolution, layout: Layout) -> Layout | None:
         """Return the zones with a free zone where the tension is highest.
 
         Return None where the interval under tension is not within one zone.
@@ -156,7 +156,7 @@ class ZoneSearch:
         return layout.parted(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
-        self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
+        self, latest: MeshSolution, wanted: States | None, edges: Layout, geometry: Geometry
     ) -> SearchState | None:
         """Return the stick and slip zones between given edges, by the active set.
 
@@ -176,7 +176,7 @@ class ZoneSearch:
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
-    def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout | None:
+    def slipping_at_edges(self, latest: MeshSolution, layout: Layout) -> Layout | None:
         """Return the layout with slip zones added at edges that the solution sticks up to.
 
         Return None if none would be as long as the shortest relevant zone.
@@ -192,6 +192,6 @@ class ZoneSearch:
         return shortest_zone(self.nip, self.model, layout.width)
 
 
-def _keeps_stick(latest: Round) -> bool:
+def _keeps_stick(latest: MeshSolution) -> bool:
     """Return whether a stick zone must be left, as a prescribed traction needs one."""
     return latest.problem.control.traction is not None

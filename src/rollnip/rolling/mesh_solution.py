@@ -93,7 +93,7 @@ class Ended:
 
 
 @dataclass(frozen=True)
-class Round:
+class MeshSolution:
     """The solution on one mesh.
 
     Attributes
@@ -214,7 +214,7 @@ def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
     return float(value), float(place)
 
 
-def excess(nip: Nip, latest: Round, tolerance: float) -> float:
+def excess(nip: Nip, latest: MeshSolution, tolerance: float) -> float:
     """Return the largest estimated relative error, over the tolerance; inf if nothing is pressed.
 
     Prescribed figures do not count.
@@ -249,7 +249,7 @@ def scale_of_creepage(creepage: float, slope: float) -> float:
     return max(0.05 * slope, abs(creepage))  # in this order: max(a, nan) is a
 
 
-def has_grip(latest: Round) -> bool:
+def has_grip(latest: MeshSolution) -> bool:
     """Return whether friction can carry the prescribed traction: |T| < mu F."""
     wanted = latest.problem.control.traction
     limit = latest.problem.friction * latest.figures.load

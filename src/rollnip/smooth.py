@@ -21,9 +21,9 @@ from rollnip.rolling import (
     Powers,
     claims,
     fields_at,
-    further_claims,
     peak_pressure,
     powers,
+    secondary_claims,
     surface_depths,
 )
 from rollnip.solution import Solution
@@ -103,8 +103,8 @@ class SmoothSolution(Solution):
 
     def _claimed_errors(self) -> dict[str, float]:
         geometry, final = self.model.geometry, self.final
-        further = further_claims(self.nip, geometry, final, self._powers)
-        return claims(self.nip, geometry, final) | further
+        secondary = secondary_claims(self.nip, geometry, final, self._powers)
+        return claims(self.nip, geometry, final) | secondary
 
     @cached_property
     def profiles(self) -> Profiles:

@@ -26,17 +26,16 @@ from rollnip.rolling.check import (
 )
 from rollnip.rolling.claimed_errors import (
     claims,
-    further_claims,
     model_shares,
     relative_claims,
+    secondary_claims,
 )
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.mesh_solution import (
     Ended,
     Figures,
-    Further,
     MeshSolution,
+    SecondaryFigures,
     creepage_scale,
     excess,
     has_grip,
@@ -47,6 +46,7 @@ from rollnip.rolling.mesh_solution import (
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.power_balance import Powers, powers, rates_of
 from rollnip.rolling.refinement import refine
+from rollnip.rolling.secondary import secondary_figures, secondary_sizes
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     PairKernels,
@@ -58,19 +58,16 @@ __all__ = [
     "Displacements",
     "Ended",
     "Figures",
-    "Further",
     "MeshSolution",
     "Nearby",
     "PairFields",
     "PairKernels",
     "Powers",
+    "SecondaryFigures",
     "claims",
     "creepage_scale",
     "excess",
     "fields_at",
-    "further_claims",
-    "further_figures",
-    "further_sizes",
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
@@ -84,6 +81,9 @@ __all__ = [
     "refine",
     "refine_all_orders",
     "relative_claims",
+    "secondary_claims",
+    "secondary_figures",
+    "secondary_sizes",
     "stretch_excess",
     "surface_depths",
     "surface_strain_in_nip",

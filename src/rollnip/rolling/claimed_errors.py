@@ -18,9 +18,9 @@ from rollnip.contact.coupled import solve_states
 from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rolling.further import further_of, further_sizes
-from rollnip.rolling.mesh_solution import Figures, Further, MeshSolution, creepage_scale
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
 from rollnip.rolling.power_balance import Powers, rates_of
+from rollnip.rolling.secondary import secondary_figures_of, secondary_sizes
 
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Relative change of these figures between grids of 12 to 32 points a half-width in "second",
@@ -35,9 +35,9 @@ MODEL_SHARES: Mapping[Geometry, Mapping[str, float]] = {
 # beside an edge are shorter than it is thick: of 50 solutions of figure 4 with 0.025 mm that differ
 # by rounding or loads, one is 6.4 % off the others, and six more than 3 %.
 SHARE_OF_EDGE_PEAK: Mapping[str, float] = {"second": 0.15, "finite": 0.02, "gripped": 0.07}
-# Model errors of `Further`, over `further_sizes`, and of the place of the peak, over the nip width
-# (decision 41).
-_FURTHER_SHARE, _SHARE_OF_PEAK_PLACE = 3.5e-3, 7e-3
+# Model errors of `SecondaryFigures`, over `secondary_sizes`, and of the place of the peak, over the
+# nip width (decision 41).
+_SECONDARY_SHARE, _SHARE_OF_PEAK_PLACE = 3.5e-3, 7e-3
 SHARE_OF_CUT = 0.3
 """Error due to the short waves that "finite" cuts from its correction, over what they change.
 
@@ -76,19 +76,19 @@ def claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float
     return out
 
 
-def further_claims(
+def secondary_claims(
     nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
 ) -> dict[str, float]:
     """Return the claimed errors of the figures without a tolerance of their own, in their units.
 
     They are nan where a figure is not defined. ``spent``: the `powers` of the solution.
     """
-    further = final.further_error or Further(*(inf,) * 8)
-    further = _with_model(further, nip, geometry, final, spent)
+    errors = final.secondary_error or SecondaryFigures(*(inf,) * 8)
+    errors = _with_model(errors, nip, geometry, final, spent)
     speed = nan if nip.speed is None else nip.speed
     load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
-    lost = _lost(further, spent, nip, geometry, final)
+    lost = _lost(errors, spent, nip, geometry, final)
     first, cut = claims(nip, geometry, final), SHARE_OF_CUT * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
         passed = abs(float(final.problem.weights @ final.state.shear))
@@ -98,19 +98,19 @@ def further_claims(
     if geometry == "finite":
         off_upper = abs(spent.driving_upper - spent.moment_upper)
         off_lower = abs(spent.driving_lower - spent.moment_lower)
-    slip = largest(further.friction, cut, spent.reversed_slip, off_upper, off_lower)
+    slip = largest(errors.friction, cut, spent.reversed_slip, off_upper, off_lower)
     out = {
-        "traction": further.traction,
-        "torque_upper": nip.upper.radius * largest(further.driving_upper, cut, off_upper),
-        "torque_lower": nip.lower.radius * largest(further.driving_lower, cut, off_lower),
+        "traction": errors.traction,
+        "torque_upper": nip.upper.radius * largest(errors.driving_upper, cut, off_upper),
+        "torque_lower": nip.lower.radius * largest(errors.driving_lower, cut, off_lower),
         "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
         "rolling_resistance": lost / load,
-        "peak_pressure_x": further.peak_pressure_x,
+        "peak_pressure_x": errors.peak_pressure_x,
     }
     length = sum(stop - start for start, stop in contact_intervals(final.zones))
     # The model error of the width is taken for that of the length in contact, too.
-    shortened = largest(further.contact_length, first["nip_width"]) / length
+    shortened = largest(errors.contact_length, first["nip_width"]) / length
     out["mean_pressure"] = load / length * (shortened + first["load"] / load)
     out["dwell_time"] = first["nip_width"] / speed
     out["speed_ratio"] = first["creepage"] / (1.0 - half) ** 2
@@ -159,23 +159,23 @@ def power_left(creepage: float, traction: float, final: MeshSolution) -> float:
 
 
 def _with_model(
-    further: Further, nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
-) -> Further:
+    errors: SecondaryFigures, nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
+) -> SecondaryFigures:
     """Return the errors, raised to those of the geometry model where these are larger."""
-    if geometry not in FINITE or final.further_error is None:
-        return further
-    figures = further_of(spent, final)
-    left = _FURTHER_SHARE * further_sizes(nip, final, figures)
+    if geometry not in FINITE or final.secondary_error is None:
+        return errors
+    figures = secondary_figures_of(spent, final)
+    left = _SECONDARY_SHARE * secondary_sizes(nip, final, figures)
     left[-1] = _SHARE_OF_PEAK_PLACE * final.figures.nip_width
-    return Further(*np.maximum(further.array(), left).tolist())
+    return SecondaryFigures(*np.maximum(errors.array(), left).tolist())
 
 
 def _lost(
-    further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: MeshSolution
+    errors: SecondaryFigures, spent: Powers, nip: Nip, geometry: Geometry, final: MeshSolution
 ) -> float:
     """Return the error of the viscous loss, over V [N/mm]."""
     rates = rates_of(geometry, final.state.creepage)
-    error = rates[0] * further.lost_upper + rates[1] * further.lost_lower
+    error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
     creepage = claims(nip, geometry, final)["creepage"]
     if rates == (1.0, 1.0) or isnan(creepage):
         return error

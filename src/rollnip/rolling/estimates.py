@@ -14,8 +14,8 @@ from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
-from rollnip.rolling.further import further_errors, further_figures, further_sizes
-from rollnip.rolling.mesh_solution import Figures, Further, MeshSolution, creepage_scale
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
+from rollnip.rolling.secondary import secondary_errors, secondary_figures, secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
 # Order assumed for the errors while there are only two sizes.
@@ -40,13 +40,13 @@ class Size:
     count : number of elements.
     figures : of the nip.
     breaks : edges and transitions [mm].
-    make_further : evaluates the further figures, which is slow for viscoelastic layers.
+    make_secondary : evaluates the secondary figures, which is slow for viscoelastic layers.
     """
 
     count: int
     figures: Figures
     breaks: Array
-    make_further: Callable[[], Further]
+    make_secondary: Callable[[], SecondaryFigures]
 
     @property
     def edge_elements(self) -> float:
@@ -55,15 +55,15 @@ class Size:
         return float(np.sqrt(lengths).sum() ** 2 / lengths.sum())
 
     @cached_property
-    def further(self) -> Further:
-        """Further figures, evaluated on first use."""
-        return self.make_further()
+    def secondary(self) -> SecondaryFigures:
+        """SecondaryFigures figures, evaluated on first use."""
+        return self.make_secondary()
 
 
 def sized(nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array) -> Size:
     """Return the results of the solution on a mesh of ``count`` elements."""
-    further = partial(further_figures, nip, model.geometry, latest)
-    return Size(count, latest.figures, breaks, further)
+    make_secondary = partial(secondary_figures, nip, model.geometry, latest)
+    return Size(count, latest.figures, breaks, make_secondary)
 
 
 def with_errors(
@@ -112,26 +112,28 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
     return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
-def with_further_errors(nip: Nip, latest: MeshSolution, history: list[Size]) -> MeshSolution:
-    """Return the solution with its estimated errors of the further figures, made on demand."""
-    make = partial(_further_error, nip, latest, tuple(history))
-    return replace(latest, make_further_error=make)
+def with_secondary_errors(nip: Nip, latest: MeshSolution, history: list[Size]) -> MeshSolution:
+    """Return the solution with its estimated errors of the secondary figures, made on demand."""
+    make = partial(_secondary_error, nip, latest, tuple(history))
+    return replace(latest, make_secondary_error=make)
 
 
-def _further_error(nip: Nip, latest: MeshSolution, history: Sequence[Size]) -> Further | None:
-    """Return the estimated errors of the further figures; None where there is a single mesh.
+def _secondary_error(
+    nip: Nip, latest: MeshSolution, history: Sequence[Size]
+) -> SecondaryFigures | None:
+    """Return the estimated errors of the secondary figures; None where there is a single mesh.
 
     Edges misplaced as in `with_errors` change tractions by twice the misplacement over the width,
     and with them the powers, which are quadratic in them. They change the length in contact by one
     misplacement at either edge.
     """
-    sizes = [(size.count, size.further) for size in history]
-    error = further_errors(nip, latest, sizes)
+    sizes = [(size.count, size.secondary) for size in history]
+    error = secondary_errors(nip, latest, sizes)
     if error is None:
         return None
     share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
-    more = share * further_sizes(nip, latest, history[-1].further)
-    return Further(*(error.array() + more).tolist())
+    more = share * secondary_sizes(nip, latest, history[-1].secondary)
+    return SecondaryFigures(*(error.array() + more).tolist())
 
 
 def estimated_error(nip: Nip, latest: MeshSolution, history: list[Size]) -> Figures:

@@ -20,7 +20,7 @@ from rollnip.rolling.estimates import (
     Size,
     sized,
     with_errors,
-    with_further_errors,
+    with_secondary_errors,
     zone_excess,
 )
 from rollnip.rolling.iterations import STILL, converge, with_residual
@@ -113,7 +113,7 @@ def _refined(
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
-                return with_further_errors(nip, final, history)
+                return with_secondary_errors(nip, final, history)
             ratio = final.residual / model.tolerance
             if not is_repeated:
                 is_repeated, count = True, wanted  # once more, with the ends where they moved to
@@ -122,7 +122,7 @@ def _refined(
         finer = _next_count(count, shown, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
-    return None if best is None or len(history) < 2 else with_further_errors(nip, best, history)
+    return None if best is None or len(history) < 2 else with_secondary_errors(nip, best, history)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:

@@ -243,7 +243,7 @@ def _solved_again(
     else:
         model_of_stage = coarsely(model) if stage is Stage.COARSE else model
         found = _placed_again(nip, model_of_stage, kernels, latest)
-    return replace(found, error=latest.error, make_further_error=latest.make_further_error)
+    return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
 def _placed_again(

@@ -133,7 +133,7 @@ def converge(
         return latest
     start = (latest.state.states, latest.second, latest.steps)
     still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)
-    return replace(still, error=latest.error, make_further_error=latest.make_further_error)
+    return replace(still, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
 def with_residual(

@@ -47,7 +47,7 @@ class Figures:
 
 
 @dataclass(frozen=True, slots=True)
-class Further:
+class SecondaryFigures:
     """Figures without a tolerance of their own, or their errors.
 
     Attributes
@@ -109,7 +109,7 @@ class MeshSolution:
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, computed afresh; inf where not
         computed.
-    make_further_error : evaluates `further_error` on demand; None where unknown.
+    make_secondary_error : evaluates `secondary_error` on demand; None where unknown.
     cut : largest relative violation of the contact conditions by the waves that "finite" cuts,
         because they are too short for the contact.
     ended : why the finite-strain iteration failed; None where it did not, or there was none.
@@ -126,7 +126,7 @@ class MeshSolution:
     settled: bool
     geometry_change: float
     residual: float = inf
-    make_further_error: Callable[[], Further | None] | None = None
+    make_secondary_error: Callable[[], SecondaryFigures | None] | None = None
     cut: float = 0.0
     ended: Ended | None = None
 
@@ -136,9 +136,9 @@ class MeshSolution:
         return self.mesh.displacements(self.state)
 
     @cached_property
-    def further_error(self) -> Further | None:
-        """Estimated discretisation error of the further figures; None where unknown."""
-        return None if self.make_further_error is None else self.make_further_error()
+    def secondary_error(self) -> SecondaryFigures | None:
+        """Estimated discretisation error of the secondary figures; None where unknown."""
+        return None if self.make_secondary_error is None else self.make_secondary_error()
 
     @property
     def is_placed(self) -> bool:

@@ -101,7 +101,7 @@ def _bending_freely(
     model, kernels, refined, left = _refined(nip, model, cache)
     left = simpler + left
     require_grip(nip, refined)
-    final = as_round(nip, refined)
+    final = as_mesh_solution(nip, refined)
     converged, status = (
         (False, simpler[0].text) if simpler else sheet_verdict(nip, model, refined, final)
     )
@@ -183,8 +183,8 @@ def _attempt(
         return None
 
 
-def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> MeshSolution:
-    """Return a solution as the round of a bare nip, with the shear of the upper side."""
+def as_mesh_solution(nip: Nip, refined: Refined[SheetAttempt]) -> MeshSolution:
+    """Return a solution in the form of a bare nip's, with the shear of the upper side."""
     attempt, figures = refined.attempt, refined.figures
     mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
     total = attempt.state.creepage + attempt.state.creepage_lower

@@ -10,7 +10,7 @@ from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
-from rollnip.rolling.mesh_solution import Further, MeshSolution, peak_pressure
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
 from rollnip.rolling.power_balance import Powers, powers
 from rollnip.rolling.surfaces import Array
 
@@ -21,16 +21,16 @@ _LEAST_SIZE = 0.05  # least size for relative errors, over the largest value a f
 _LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
-def further_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> Further:
-    """Return the further figures of a solution."""
-    return further_of(powers(nip, geometry, found), found)
+def secondary_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution."""
+    return secondary_figures_of(powers(nip, geometry, found), found)
 
 
-def further_of(spent: Powers, found: MeshSolution) -> Further:
-    """Return the further figures of a solution, given its powers."""
+def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution, given its powers."""
     mesh, state = found.mesh, found.state
     _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-    return Further(
+    return SecondaryFigures(
         traction=float(mesh.weights @ state.shear),
         driving_upper=spent.driving_upper,
         driving_lower=spent.driving_lower,
@@ -42,10 +42,10 @@ def further_of(spent: Powers, found: MeshSolution) -> Further:
     )
 
 
-def further_errors(
-    nip: Nip, latest: MeshSolution, sizes: Sequence[tuple[int, Further]]
-) -> Further | None:
-    """Return the estimated errors of the further figures from their changes between meshes.
+def secondary_errors(
+    nip: Nip, latest: MeshSolution, sizes: Sequence[tuple[int, SecondaryFigures]]
+) -> SecondaryFigures | None:
+    """Return the estimated errors of the secondary figures from their changes between meshes.
 
     As for `Figures`, the last change is taken with the order that the meshes show, earlier changes
     with second order, and no error is below the least that such meshes have on random nips.
@@ -68,15 +68,15 @@ def further_errors(
         else np.ones(_LEAST_ERROR.size)
     )
     error = errors_from_changes(counts, values, order)
-    floor = _LEAST_ERROR * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
+    floor = _LEAST_ERROR * secondary_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
     error = np.maximum(error, floor)
     if not isinstance(nip.tangential, Traction):
         error[1:3] = np.maximum(error[1:3], error[0])  # torques contain the traction
-    return Further(*error.tolist())
+    return SecondaryFigures(*error.tolist())
 
 
-def further_sizes(nip: Nip, latest: MeshSolution, figures: Further) -> Array:
-    """Return the sizes that errors of `Further` are relative to, (8,).
+def secondary_sizes(nip: Nip, latest: MeshSolution, figures: SecondaryFigures) -> Array:
+    """Return the sizes that errors of `SecondaryFigures` are relative to, (8,).
 
     Each is at least a share of the largest value that the figure may have, as a traction or loss
     that is zero by symmetry has no relative error. A figure that vanishes for lack of friction or

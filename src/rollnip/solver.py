@@ -23,7 +23,7 @@ from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.no_nip import impossible, is_too_deep
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
-    Ended,
+    IterationFailure,
     MeshSolution,
     Nearby,
     PairKernels,
@@ -151,7 +151,7 @@ def _solved(
     left: list[tuple[Geometry, str]] = []
     while model.geometry in FINITE and (cause := _without_solution(nip, model, final)):
         left.append((model.geometry, cause))
-        is_deep = final.ended is not None and final.ended.cause == "depth"
+        is_deep = final.failure is not None and final.failure.cause == "depth"
         model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
         kernels, final = _refined(nip, model, cache, None)
     if not final.zones:
@@ -191,8 +191,8 @@ def _without_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
-    if final.ended is not None:
-        return _how_far(final.ended)
+    if final.failure is not None:
+        return _how_far(final.failure)
     if not final.geometry_change < _DIVERGED:
         return (
             f"its {BEYOND[model.geometry]} did not settle (they last changed by "
@@ -203,20 +203,20 @@ def _without_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
     return "" if final.settled else "contact, stick and slip did not settle"
 
 
-def _how_far(ended: Ended) -> str:
+def _how_far(failure: IterationFailure) -> str:
     """Return why contact and correction found no solution, and how far their iteration got."""
-    done, change = ended.iterations, f"{ended.change:.2g}"
-    if ended.cause == "depth":
+    done, change = failure.iterations, f"{failure.change:.2g}"
+    if failure.cause == "depth":
         return "without finite strain a layer is pressed in by its whole thickness or more"
-    if ended.cause == "balance" and done == 0:
+    if failure.cause == "balance" and done == 0:
         return "no equilibrium was found under its tractions, nor under a sixteenth of them"
-    if ended.cause == "balance":
+    if failure.cause == "balance":
         return (
             f"no equilibrium was found under its tractions in iteration {done + 1} of contact and "
             f"correction (in the iteration before, its terms beyond the linear ones changed by "
             f"{change} of the first-order ones)"
         )
-    if ended.cause == "contact":
+    if failure.cause == "contact":
         return (
             f"contact, stick and slip did not settle in iteration {done} of contact and "
             f"correction (in it, its terms beyond the linear ones changed by {change} of the "

@@ -32,8 +32,8 @@ from rollnip.rolling.claimed_errors import (
 )
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.mesh_solution import (
-    Ended,
     Figures,
+    IterationFailure,
     MeshSolution,
     SecondaryFigures,
     creepage_scale,
@@ -56,8 +56,8 @@ from rollnip.rolling.surfaces import (
 
 __all__ = [
     "Displacements",
-    "Ended",
     "Figures",
+    "IterationFailure",
     "MeshSolution",
     "Nearby",
     "PairFields",

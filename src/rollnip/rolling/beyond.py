@@ -43,7 +43,7 @@ from rollnip.rolling.held import (
     solved_next,
 )
 from rollnip.rolling.iterations import change_of, with_residual
-from rollnip.rolling.mesh_solution import Ended, MeshSolution
+from rollnip.rolling.mesh_solution import IterationFailure, MeshSolution
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.surfaces import PairKernels
@@ -93,7 +93,7 @@ def refine_all_orders(
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it has not settled; ``ended`` tells how far iterations got.
+    is found, or no contact, it has not settled; ``failure`` tells how far iterations got.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -103,9 +103,9 @@ def refine_all_orders(
     start, latest, stage = begin(
         nip, model, kernels, half_width, None if grips_skin(nip) else second, is_too_deep
     )
-    ended: Ended | None = None
+    failure: IterationFailure | None = None
     if latest.settled and is_too_deep(latest, is_rough=True):
-        ended = Ended("depth", 0, inf)
+        failure = IterationFailure("depth", 0, inf)
     elif latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         begun = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
@@ -116,12 +116,12 @@ def refine_all_orders(
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
             found = _iterated(nip, model, (start, latest), orders, stage, is_too_deep)
-            if not isinstance(found, Ended):
+            if not isinstance(found, IterationFailure):
                 return found
-            ended = found
-            if ended.cause == "balance" and ended.iterations == 0:
+            failure = found
+            if failure.cause == "balance" and failure.iterations == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
-    return start, replace(latest, settled=False, ended=ended)
+    return start, replace(latest, settled=False, failure=failure)
 
 
 def _from_nearby(
@@ -142,7 +142,7 @@ def _from_nearby(
         return None
     orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
     found = _iterated(nip, model, begun, orders, Stage.REFINED, is_too_deep, is_near=True)
-    return None if isinstance(found, Ended) else found
+    return None if isinstance(found, IterationFailure) else found
 
 
 @dataclass
@@ -234,7 +234,7 @@ def _iterated(
     is_too_deep: IsTooDeep,
     *,
     is_near: bool = False,
-) -> tuple[PairKernels, MeshSolution] | Ended:
+) -> tuple[PairKernels, MeshSolution] | IterationFailure:
     """Solve the contact and evaluate its correction by iteration.
 
     On a coarse mesh until the changes to come are small, then on a refined one until the contact
@@ -282,7 +282,7 @@ def _iterated(
         past = past if stage is was else Past(places_by_the_edges(_edges(latest)))
         latest = found
     if least.found is None:
-        return Ended(cause, iterations, change)
+        return IterationFailure(cause, iterations, change)
     return least.found
 
 

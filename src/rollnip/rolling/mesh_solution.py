@@ -75,7 +75,7 @@ class SecondaryFigures:
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
+class IterationFailure:
     """Why the finite-strain iteration of contact and correction failed, and how far it got.
 
     Attributes
@@ -112,7 +112,7 @@ class MeshSolution:
     make_secondary_error : evaluates `secondary_error` on demand; None where unknown.
     cut : largest relative violation of the contact conditions by the waves that "finite" cuts,
         because they are too short for the contact.
-    ended : why the finite-strain iteration failed; None where it did not, or there was none.
+    failure : why the finite-strain iteration failed; None where it did not, or there was none.
     """
 
     mesh: Mesh
@@ -128,7 +128,7 @@ class MeshSolution:
     residual: float = inf
     make_secondary_error: Callable[[], SecondaryFigures | None] | None = None
     cut: float = 0.0
-    ended: Ended | None = None
+    failure: IterationFailure | None = None
 
     @cached_property
     def displacements(self) -> Displacements:

@@ -8,7 +8,7 @@ import pytest
 import rollnip as rn
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
-    Size,
+    RefinementLevel,
     estimated_error,
     lag_within,
     with_secondary_errors,
@@ -28,7 +28,7 @@ def one(solved):
 def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
     secondary = SecondaryFigures(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
     return [
-        Size(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks), secondary)
+        RefinementLevel(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks), secondary)
         for n in counts
     ]
 
@@ -105,7 +105,8 @@ def test_edges_within_a_memory_change_all_figures_in_proportion(one):
     lagging = replace(nip, upper=lagging, speed=100.0)
     secondary = SecondaryFigures(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
     history = [
-        Size(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: secondary) for n in (20, 30)
+        RefinementLevel(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: secondary)
+        for n in (20, 30)
     ]
     at_once, later = (
         with_secondary_errors(of, final, history).secondary_error for of in (nip, lagging)

@@ -32,8 +32,8 @@ _CREEPAGE, _WIDTH, _PEAK = (
 
 
 @dataclass(frozen=True)
-class Size:
-    """Results on a mesh of one size in the refinement history.
+class RefinementLevel:
+    """Results at one level of mesh refinement.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Size:
     make_secondary: Callable[[], SecondaryFigures]
 
     @property
-    def edge_elements(self) -> float:
+    def edge_element_ratio(self) -> float:
         """Length of the edge elements, over that with as many elements in a single zone."""
         lengths = np.diff(self.breaks)
         return float(np.sqrt(lengths).sum() ** 2 / lengths.sum())
@@ -60,14 +60,16 @@ class Size:
         return self.make_secondary()
 
 
-def sized(nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array) -> Size:
+def refinement_level(
+    nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array
+) -> RefinementLevel:
     """Return the results of the solution on a mesh of ``count`` elements."""
     make_secondary = partial(secondary_figures, nip, model.geometry, latest)
-    return Size(count, latest.figures, breaks, make_secondary)
+    return RefinementLevel(count, latest.figures, breaks, make_secondary)
 
 
 def with_errors(
-    nip: Nip, latest: MeshSolution, history: list[Size], left: Figures | None
+    nip: Nip, latest: MeshSolution, history: list[RefinementLevel], left: Figures | None
 ) -> MeshSolution:
     """Return the solution with the estimated errors of the figures held to the tolerance.
 
@@ -112,14 +114,16 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
     return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
-def with_secondary_errors(nip: Nip, latest: MeshSolution, history: list[Size]) -> MeshSolution:
+def with_secondary_errors(
+    nip: Nip, latest: MeshSolution, history: list[RefinementLevel]
+) -> MeshSolution:
     """Return the solution with its estimated errors of the secondary figures, made on demand."""
     make = partial(_secondary_error, nip, latest, tuple(history))
     return replace(latest, make_secondary_error=make)
 
 
 def _secondary_error(
-    nip: Nip, latest: MeshSolution, history: Sequence[Size]
+    nip: Nip, latest: MeshSolution, history: Sequence[RefinementLevel]
 ) -> SecondaryFigures | None:
     """Return the estimated errors of the secondary figures; None where there is a single mesh.
 
@@ -127,7 +131,7 @@ def _secondary_error(
     and with them the powers, which are quadratic in them. They change the length in contact by one
     misplacement at either edge.
     """
-    sizes = [(size.count, size.secondary) for size in history]
+    sizes = [(level.count, level.secondary) for level in history]
     error = secondary_errors(nip, latest, sizes)
     if error is None:
         return None
@@ -136,7 +140,7 @@ def _secondary_error(
     return SecondaryFigures(*(error.array() + more).tolist())
 
 
-def estimated_error(nip: Nip, latest: MeshSolution, history: list[Size]) -> Figures:
+def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLevel]) -> Figures:
     """Return the estimated discretisation error of each figure from its changes between meshes.
 
     It is inf where there is a single mesh. No error is estimated below the least error that meshes
@@ -150,8 +154,8 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[Size]) -> Figu
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
-    counts = np.array([size.count for size in history], dtype=float)
-    values = np.array([size.figures.array() for size in history])
+    counts = np.array([level.count for level in history], dtype=float)
+    values = np.array([level.figures.array() for level in history])
     values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes miss the peaks under a stiff skin
     # Two sizes show no order. The creepage is taken as first order, as it depends most on edges up
     # to which unlike surfaces stick.
@@ -162,12 +166,12 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[Size]) -> Figu
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = LEAST_ERROR * scales / count**2
-    floor[_WIDTH] *= history[-1].edge_elements
+    floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 
 
-def zone_excess(history: list[Size], tolerance: float) -> float:
+def zone_excess(history: list[RefinementLevel], tolerance: float) -> float:
     """Return the largest estimated error of a zone's length, over the allowed error.
 
     Allowed is three times the tolerance, times the length of the zone or a twentieth of the width

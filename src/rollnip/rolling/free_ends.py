@@ -17,8 +17,8 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
-    Size,
-    sized,
+    RefinementLevel,
+    refinement_level,
     with_errors,
     with_secondary_errors,
     zone_excess,
@@ -83,7 +83,7 @@ def _refined(
     placing: Placing, state: SearchState, count: int, *, known: bool
 ) -> MeshSolution | None:
     nip, model = placing.nip, placing.model
-    history: list[Size] = []
+    history: list[RefinementLevel] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     most = max(most, _MOST_TIMES_FIRST * count)
     best: MeshSolution | None = None
@@ -105,7 +105,7 @@ def _refined(
             continue
         if is_repeated and history:
             history.pop()
-        history.append(sized(nip, model, latest, count, state.layout.breaks))
+        history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.left)
         ratio = excess(nip, latest, model.tolerance)
         zones_rest = count > ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0

@@ -12,7 +12,7 @@ from rollnip.rolling.estimates import (
     estimated_error,
     lag_within,
     with_secondary_errors,
-    zone_excess,
+    zone_error_ratio,
 )
 from rollnip.rolling.mesh_solution import Figures, SecondaryFigures
 from rollnip.rolling.secondary import secondary_sizes
@@ -137,6 +137,8 @@ def test_zones_count_by_their_own_length_or_a_twentieth_of_the_nip():
         ]
 
     # 1.5/(2^2 - 1) of the change, over three tolerances of 0.1, a twentieth of 2
-    assert zone_excess(history(-0.898), 1e-3) == pytest.approx(0.5 * 0.002 / 0.000306, rel=1e-6)
-    assert zone_excess(history(-0.98), 1e-3) == pytest.approx(0.5 * 0.08 / 0.0003)
-    assert zone_excess(history(-0.9)[:1], 1e-3) == 0.0
+    assert zone_error_ratio(history(-0.898), 1e-3) == pytest.approx(
+        0.5 * 0.002 / 0.000306, rel=1e-6
+    )
+    assert zone_error_ratio(history(-0.98), 1e-3) == pytest.approx(0.5 * 0.08 / 0.0003)
+    assert zone_error_ratio(history(-0.9)[:1], 1e-3) == 0.0

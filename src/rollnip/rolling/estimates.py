@@ -171,7 +171,7 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 
 
-def zone_excess(history: list[RefinementLevel], tolerance: float) -> float:
+def zone_error_ratio(history: list[RefinementLevel], tolerance: float) -> float:
     """Return the largest estimated error of a zone's length, over the allowed error.
 
     Allowed is three times the tolerance, times the length of the zone or a twentieth of the width
@@ -181,11 +181,11 @@ def zone_excess(history: list[RefinementLevel], tolerance: float) -> float:
         return 0.0
     coarse, fine = history[-2:]
     share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))
-    return float(share) * length_excess(coarse.breaks, fine.breaks, tolerance)
+    return float(share) * length_change_ratio(coarse.breaks, fine.breaks, tolerance)
 
 
-def length_excess(before: Array, after: Array, tolerance: float) -> float:
-    """Return the largest change of a zone's length, over the error that `zone_excess` allows."""
+def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
+    """Return the largest change of a zone's length, over what `zone_error_ratio` allows."""
     lengths = np.diff(after)
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
     return float(np.max(np.abs(lengths - np.diff(before)) / allowed))

@@ -21,10 +21,10 @@ from rollnip.rolling.estimates import (
     refinement_level,
     with_errors,
     with_secondary_errors,
-    zone_excess,
+    zone_error_ratio,
 )
 from rollnip.rolling.iterations import STILL, converge, with_residual
-from rollnip.rolling.mesh_solution import MeshSolution, excess
+from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
@@ -33,7 +33,7 @@ _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; tractions that need more are not smooth
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
-_FIRST_EXCESS = 3.08  # rough error over the tolerance, assumed after the first mesh size
+_FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
 _LEAST_GROWTH = 1.2  # of the number of elements from size to size
 # Number of elements above which ends may still move between sizes: transitions that do so have no
 # square root at them.
@@ -88,7 +88,7 @@ def _refined(
     most = max(most, _MOST_TIMES_FIRST * count)
     best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
-    shown = _FIRST_EXCESS  # error, residual or roughness, over what is allowed
+    shown = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
     while count <= most:
         closely = bool(history)  # from the second size on the error may meet the tolerance
         placed = placing.placed(state, count, known=known or closely, closely=closely)
@@ -107,8 +107,8 @@ def _refined(
             history.pop()
         history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.left)
-        ratio = excess(nip, latest, model.tolerance)
-        zones_rest = count > ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
+        ratio = error_ratio(nip, latest, model.tolerance)
+        zones_rest = count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and zones_rest:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
@@ -118,7 +118,7 @@ def _refined(
             if not is_repeated:
                 is_repeated, count = True, wanted  # once more, with the ends where they moved to
                 continue
-        shown = min(shown, _FIRST_EXCESS) if ratio == inf else largest(ratio, roughness)
+        shown = min(shown, _FIRST_ERROR_RATIO) if ratio == inf else largest(ratio, roughness)
         finer = _next_count(count, shown, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer

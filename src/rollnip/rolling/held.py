@@ -24,7 +24,7 @@ from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
-from rollnip.rolling.mesh_solution import MeshSolution, excess
+from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
@@ -187,7 +187,7 @@ def _better(
         found = _refined(nip, model, kernels, latest)
         return found, Stage.REFINED if found.is_placed else Stage.FINE
     ready = placed(nip, model, kernels, latest) if stage is Stage.FINE else None
-    if ready is not None and excess(nip, ready, model.tolerance) <= 1.0:
+    if ready is not None and error_ratio(nip, ready, model.tolerance) <= 1.0:
         return ready, Stage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)
     if finer is None and ready is not None:

@@ -214,7 +214,7 @@ def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
     return float(value), float(place)
 
 
-def excess(nip: Nip, latest: MeshSolution, tolerance: float) -> float:
+def error_ratio(nip: Nip, latest: MeshSolution, tolerance: float) -> float:
     """Return the largest estimated relative error, over the tolerance; inf if nothing is pressed.
 
     Prescribed figures do not count.

@@ -30,7 +30,7 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.estimates import length_excess
+from rollnip.rolling.estimates import length_change_ratio
 from rollnip.rolling.iterations import (
     STILL,
     STILL_UNDER_SKIN,
@@ -39,7 +39,7 @@ from rollnip.rolling.iterations import (
     solve_on_mesh,
 )
 from rollnip.rolling.lengths import boundary_layer
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, excess
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
@@ -116,7 +116,7 @@ class Placing:
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
-            elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
+            elif length_change_ratio(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
                 effect = None  # zones change too much for what another size has shown to apply
             left = None if effect is None else effect.times(there.distance(layout))
             last = layout, latest.figures
@@ -249,7 +249,7 @@ class Placing:
         """
         if left is None:
             return True
-        return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
+        return error_ratio(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
 
     def _exceeds_bound(self, latest: MeshSolution) -> bool:
         """Return whether the shear beside a transition exceeds its bound by more than allowed.

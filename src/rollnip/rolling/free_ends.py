@@ -23,7 +23,7 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
     zone_error_ratio,
 )
-from rollnip.rolling.iterations import STILL, converge, with_residual
+from rollnip.rolling.iterations import NEGLIGIBLE, converge, with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
@@ -157,4 +157,4 @@ def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
     errors = [cubic_error(pressure, x, elements) / (peak * width)]
     if most > 0.0:
         errors.append(cubic_error(shear, x, elements) / (most * width))
-    return largest(*errors) / (STILL * model.tolerance)
+    return largest(*errors) / (NEGLIGIBLE * model.tolerance)

@@ -23,7 +23,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
-from rollnip.rolling.iterations import STILL, solve_on_mesh
+from rollnip.rolling.iterations import NEGLIGIBLE, solve_on_mesh
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
@@ -239,7 +239,7 @@ def _solved_again(
             *_, found = by_nodes(nip, model, kernels, half_width, COARSE_SIZES)
             return found
         start = latest.state.states, latest.second, latest.steps
-        found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
+        found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, NEGLIGIBLE)
     else:
         model_of_stage = coarsely(model) if stage is Stage.COARSE else model
         found = _placed_again(nip, model_of_stage, kernels, latest)

@@ -18,11 +18,11 @@ from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, 
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 MOST_ITERATIONS = 40
-# Change of the second-order terms at which iterations stop, over the tolerance. An iteration
-# reduces their remaining error at least tenfold. Under a stiff skin, ends are placed with the
-# second value; a coarse mesh that only looks for zones needs no such accuracy.
-STILL = 0.1
-STILL_UNDER_SKIN = 1e-3
+# Share of the tolerance that counts as negligible: such changes of the second-order terms end an
+# iteration, which reduces their remaining error at least tenfold. Under a stiff skin, ends are
+# placed with the second value; a coarse mesh that only looks for zones needs no such accuracy.
+NEGLIGIBLE = 0.1
+NEGLIGIBLE_UNDER_SKIN = 1e-3
 
 
 class Method(Protocol):
@@ -57,7 +57,7 @@ def solve_on_mesh(
     mesh: Mesh,
     start: tuple[States, SecondOrder, int],
     method: Method,
-    still: float,
+    settled_change: float,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> MeshSolution:
     """Return the solution on one mesh, by fixed-point iteration of the second-order terms.
@@ -66,7 +66,7 @@ def solve_on_mesh(
     ----------
     start : states, second-order terms, and the number of linear systems solved before.
     method : solver for given second-order terms.
-    still : change of the second-order terms at which to stop, over the tolerance.
+    settled_change : change of the second-order terms at which to stop, over the tolerance.
     zones : of the solution; None: derive them from it.
     """
     states, second, steps = start
@@ -80,13 +80,15 @@ def solve_on_mesh(
         updated = second_order(nip, model.geometry, mesh, state)
         change = change_of(updated, second, mesh, nip, state)
         second, states = updated, state.states
-        if not change > still * model.tolerance:
+        if not change > settled_change * model.tolerance:
             break
     if zones is None:
         zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
-    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
+    settled = (
+        state.settled and change <= settled_change * model.tolerance and figures.peak_pressure > 0.0
+    )
     return MeshSolution(
         mesh, problem, state, second, zones, figures, unknown, steps, settled, change
     )
@@ -129,11 +131,11 @@ def converge(
 
     ``zones``: see `solve_on_mesh`.
     """
-    if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
+    if not latest.settled or latest.geometry_change <= NEGLIGIBLE * model.tolerance:
         return latest
     start = (latest.state.states, latest.second, latest.steps)
-    still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)
-    return replace(still, error=latest.error, make_secondary_error=latest.make_secondary_error)
+    converged = solve_on_mesh(nip, model, latest.mesh, start, method, NEGLIGIBLE, zones)
+    return replace(converged, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
 def with_residual(

@@ -32,8 +32,8 @@ from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.estimates import length_change_ratio
 from rollnip.rolling.iterations import (
-    STILL,
-    STILL_UNDER_SKIN,
+    NEGLIGIBLE,
+    NEGLIGIBLE_UNDER_SKIN,
     change_of,
     held_from,
     solve_on_mesh,
@@ -195,13 +195,17 @@ class Placing:
         return boundary_layer(self.nip)
 
     @cached_property
-    def still(self) -> float:
+    def settled_change(self) -> float:
         """Change of the second-order terms at which iterations stop, over the tolerance.
 
         It is smaller under a stiff skin, where the pressure beside an edge responds strongly to
         small changes of the gap.
         """
-        return STILL_UNDER_SKIN if has_stiff_skin((self.nip.upper, self.nip.lower)) else STILL
+        return (
+            NEGLIGIBLE_UNDER_SKIN
+            if has_stiff_skin((self.nip.upper, self.nip.lower))
+            else NEGLIGIBLE
+        )
 
     @cached_property
     def longest_piece(self) -> float:
@@ -236,7 +240,7 @@ class Placing:
         otherwise a tenth of it. Without friction, the edges of ``known`` zones are placed relative
         to the boundary layer instead, if it is shorter, as the pressure changes within it.
         """
-        most = self.model.tolerance * (1.0 if by_figures else STILL)
+        most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
         if known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
@@ -249,7 +253,7 @@ class Placing:
         """
         if left is None:
             return True
-        return error_ratio(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
+        return error_ratio(self.nip, replace(latest, error=left), self.model.tolerance) > NEGLIGIBLE
 
     def _exceeds_bound(self, latest: MeshSolution) -> bool:
         """Return whether the shear beside a transition exceeds its bound by more than allowed.
@@ -305,7 +309,7 @@ class Placing:
         mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
-            self.nip, self.model, mesh, start, self.given, self.still, layout.zones
+            self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
         return latest, layout.moved(mesh.inner, latest.state, self.nip.friction)
 

@@ -14,7 +14,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
-    STILL,
+    NEGLIGIBLE,
     converge,
     holding,
     solve_on_mesh,
@@ -160,7 +160,7 @@ def _on_one(
     if before is not None:
         second, steps = before.second.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), second, steps
-    return solve_on_mesh(nip, model, mesh, start, BY_NODES, STILL)
+    return solve_on_mesh(nip, model, mesh, start, BY_NODES, NEGLIGIBLE)
 
 
 def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolution | None) -> bool:

@@ -22,7 +22,7 @@ from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.iterations import STILL
+from rollnip.rolling.iterations import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import PairKernels
@@ -123,16 +123,16 @@ class ZoneSearch:
     def wanted(self, latest: MeshSolution, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None if no node in contact changes.
 
-        Violations up to `STILL` times the tolerance change no state. If all of the tolerance were
-        allowed, slip zones at edges would be missed on which the creepage of a wide, thin covering
-        depends. At finite strain all of it is allowed, as the correction may leave as much. Nodes
-        next to the ends of zones do not count, as the ends may be misplaced.
+        Violations up to `NEGLIGIBLE` times the tolerance change no state. If all of the tolerance
+        were allowed, slip zones at edges would be missed on which the creepage of a wide, thin
+        covering depends. At finite strain all of it is allowed, as the correction may leave as
+        much. Nodes next to the ends of zones do not count, as the ends may be misplaced.
 
         ``whole``: whether to check contact too; until the edges are placed, only stick and slip.
         """
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
-            slack *= STILL
+            slack *= NEGLIGIBLE
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)

@@ -281,7 +281,7 @@ def test_zones_are_found_from_states_of_nodes():
     start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
     found = CoupledActiveSet(wanted=next_slip).solve(problem, start)
     np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
-    layout = Layout.found(problem.x, found, 1.0, (-1.0, 1.0))
+    layout = Layout.from_nodes(problem.x, found, 1.0, (-1.0, 1.0))
     assert layout is not None
     assert list(layout.states) == [PLUS, STICK]
     assert layout.breaks[[0, -1]] == pytest.approx([-1.0, 1.0])

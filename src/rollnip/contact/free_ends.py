@@ -76,7 +76,7 @@ class Layout:
         return layout if not alike and layout.is_proper else None
 
     @classmethod
-    def found(
+    def from_nodes(
         cls,
         x: Array,
         state: ContactState,

@@ -168,7 +168,7 @@ class ZoneSearch:
         if np.array_equal(found.states, given):
             return None
         pieces = contact_intervals(edges.zones)
-        layout = Layout.found(latest.problem.x, found, self.nip.friction, *pieces)
+        layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
         layout = layout.of_length(self._shortest(layout), keeps_stick=_keeps_stick(latest))

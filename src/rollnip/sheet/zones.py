@@ -199,7 +199,7 @@ class Zones(SideZones):
     ) -> Zones | None:
         """Return the zones of nodal states in a contact with known edges; None if unclear."""
         sides = [
-            Layout.found(x, state.side(number), friction, edges)
+            Layout.from_nodes(x, state.side(number), friction, edges)
             for number, friction in enumerate(frictions)
         ]
         upper, lower = sides

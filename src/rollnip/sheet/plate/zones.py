@@ -160,7 +160,7 @@ class PlateZones(SideZones):
     def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:
         """Return the zones of nodal states between the edges of these; None if unclear."""
         sides = [
-            Layout.found(mesh.inner, state.side(number), friction, side.edges)
+            Layout.from_nodes(mesh.inner, state.side(number), friction, side.edges)
             for number, (mesh, friction, side) in enumerate(
                 zip(problem.meshes, problem.frictions, self.sides, strict=True)
             )

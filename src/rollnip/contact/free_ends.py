@@ -102,7 +102,7 @@ class Layout:
         return cls.of(tuple(zones))
 
     @classmethod
-    def around(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
+    def with_free_surfaces(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
         """Return the layout of given zones with the free surface between and beside them.
 
         Zones without a length are left out.

@@ -149,12 +149,14 @@ def _on_one(
 ) -> MeshSolution:
     nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
-        around = Layout.around(Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width)
+        around = Layout.with_free_surfaces(
+            Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width
+        )
     else:
         zones = before.zones
         if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
-        around = Layout.around(zones, NEAR_ENOUGH * before.figures.nip_width)
+        around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
     mesh = placing.mesh_around(around, count, holding(kernels, before))
     second, steps = first_guess(nip, mesh), 0
     if before is not None:

@@ -154,10 +154,15 @@ def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
 def test_zones_shorter_than_what_counts_are_left_out_shortest_first():
     breaks, states = [0.0, 0.01, 0.03, 5.0, 5.05, 5.055, 9.0], [PLUS, STICK, PLUS, STICK, MINUS]
     whole = Layout(np.array(breaks), np.array([*states, STICK], dtype=np.int8))
-    same = whole.of_length(0.004, keeps_stick=True)
+    same = whole.without_short_zones(0.004, keeps_stick=True)
     assert same.breaks.tolist() == breaks
-    assert whole.of_length(0.02, keeps_stick=True).breaks.tolist() == [0.0, 0.03, 5.0, 9.0]
-    fewer = whole.of_length(0.1, keeps_stick=True)
+    assert whole.without_short_zones(0.02, keeps_stick=True).breaks.tolist() == [
+        0.0,
+        0.03,
+        5.0,
+        9.0,
+    ]
+    fewer = whole.without_short_zones(0.1, keeps_stick=True)
     assert fewer.states.tolist() == [PLUS, STICK]
     assert fewer.breaks.tolist() == [0.0, 5.0, 9.0]
 

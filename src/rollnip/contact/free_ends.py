@@ -224,7 +224,7 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
-    def of_length(self, least: float, *, keeps_stick: bool) -> Layout:
+    def without_short_zones(self, least: float, *, keeps_stick: bool) -> Layout:
         """Return the layout without zones shorter than ``least`` [mm], removing the shortest first.
 
         It stops at the first zone that cannot be removed, see `without`.

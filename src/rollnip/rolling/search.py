@@ -171,7 +171,9 @@ class ZoneSearch:
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
-        layout = layout.of_length(self._shortest(layout), keeps_stick=_keeps_stick(latest))
+        layout = layout.without_short_zones(
+            self._shortest(layout), keeps_stick=_keeps_stick(latest)
+        )
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))

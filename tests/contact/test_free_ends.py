@@ -145,10 +145,10 @@ def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
     ]
     places = [[0.0, 2.0, 3.0, 4.0], [0.0, 2.0, 3.0, 4.0], [0.0, 1.0, 2.5, 4.0], [0.0, 1.0, 2.0]]
     assert [one.breaks.tolist() for one in fewer] == places
-    again = whole.parted(1.2, 1.4)
+    again = whole.with_gap(1.2, 1.4)
     assert again.states.tolist() == [PLUS, STICK, free, STICK, free, MINUS]
     assert again.without(2, keeps_stick=True).breaks.tolist() == whole.breaks.tolist()
-    assert whole.parted(0.5, 1.5) is None
+    assert whole.with_gap(0.5, 1.5) is None
 
 
 def test_zones_shorter_than_what_counts_are_left_out_shortest_first():

@@ -237,7 +237,7 @@ class Layout:
             layout = fewer
         return layout
 
-    def parted(self, start: float, stop: float) -> Layout | None:
+    def with_gap(self, start: float, stop: float) -> Layout | None:
         """Return the layout with a free zone from ``start`` to ``stop`` [mm].
 
         Return None unless both lie in the same zone.

@@ -116,9 +116,9 @@ class ZoneSearch:
         if slipping is not None:
             yield SearchState(slipping, latest)
         if self.pulls(latest):
-            parted = self.parted(latest, layout)
-            if parted is not None:
-                yield SearchState(parted, latest)
+            opened = self.with_gap_at_tension(latest, layout)
+            if opened is not None:
+                yield SearchState(opened, latest)
 
     def wanted(self, latest: MeshSolution, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None if no node in contact changes.
@@ -146,14 +146,14 @@ class ZoneSearch:
         """Return whether there is tension in the contact, outside the elements at edges."""
         return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 
-    def parted(self, latest: MeshSolution, layout: Layout) -> Layout | None:
+    def with_gap_at_tension(self, latest: MeshSolution, layout: Layout) -> Layout | None:
         """Return the zones with a free zone where the tension is highest.
 
         Return None where the interval under tension is not within one zone.
         """
         lowest, pulls = int(np.argmin(latest.pressure)), latest.pressure < 0.0
         first, last = next(run for run in runs(pulls) if run[0] <= lowest <= run[1])
-        return layout.parted(float(latest.x[first]), float(latest.x[last]))
+        return layout.with_gap(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
         self, latest: MeshSolution, wanted: States | None, edges: Layout, geometry: Geometry

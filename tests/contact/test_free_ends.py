@@ -120,7 +120,7 @@ def test_contact_in_pieces_has_the_edges_of_its_closed_form():
     layout = Layout(np.array([-1.05, -0.63, 0.57, 1.03]), states)
     for _ in range(8):
         problem, state = two_pieces(layout, [12, 8, 12], inner, outer)
-        layout = layout.moved(problem.x, state, 0.0)
+        layout = layout.with_proposed_ends(problem.x, state, 0.0)
     np.testing.assert_allclose(layout.breaks, [-outer, -inner, inner, outer], atol=1e-4)
     product = (outer**2 - problem.x**2) * (problem.x**2 - inner**2)
     exact = np.abs(problem.x) * np.sqrt(np.maximum(product, 0.0)) / np.pi
@@ -174,7 +174,7 @@ def test_edges_are_found_again(off):
     distances = []
     for _ in range(5):
         problem, _, state = hertz(layout.breaks, 16)
-        layout = layout.moved(problem.x, state, 0.0)
+        layout = layout.with_proposed_ends(problem.x, state, 0.0)
         distances.append(np.max(np.abs(np.abs(layout.breaks) - 1.0)))
     assert distances[-1] < 1e-4
     assert distances[0] < 1.5 * max(map(abs, off)) ** 2 + 3e-4
@@ -202,7 +202,7 @@ def test_transition_of_carter_is_found_again(off, sign):
             layout.breaks, [8, 14], load=HERTZ_LOAD, traction=traction, friction=1.0
         )
         state = GivenStates().solve(problem, layout.states_on(problem.x))
-        layout = layout.moved(problem.x, state, 1.0)
+        layout = layout.with_proposed_ends(problem.x, state, 1.0)
     assert layout.breaks[1] == pytest.approx(1.0 - 2.0 * b, abs=1e-3)
     # the creep of rigid rolling: xi = mu (1 - b) a/R of two half-planes, in these units mu (1 - b)
     assert abs(state.creepage) == pytest.approx(1.0 - b, rel=2e-3)
@@ -220,7 +220,7 @@ def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
     shear = np.where(x < 1.0, 0.5 * pressure - smooth, 0.5 * pressure)
     layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    moved = layout.moved(x, state, 0.5)
+    moved = layout.with_proposed_ends(x, state, 0.5)
     assert moved.breaks[1] - 1.0 == pytest.approx(short, rel=0.05)
 
 
@@ -242,7 +242,7 @@ def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
     shear[sticks] = (friction * (from_trailing - to_leading))[sticks]
     layout = Layout(breaks, np.array([MINUS, STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    moved = layout.moved(x, state, friction)
+    moved = layout.with_proposed_ends(x, state, friction)
     np.testing.assert_allclose(moved.breaks[1:-1], breaks[1:-1], atol=1e-9)
 
 
@@ -418,4 +418,4 @@ def test_a_smooth_end_is_found_further_inside_where_the_first_nodes_tell_none():
     shear = np.where(x < 1.0, 0.5 * pressure - slack, 0.5 * pressure)
     layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    assert layout.moved(x, state, 0.5).breaks[1] - 1.0 == pytest.approx(short, rel=0.2)
+    assert layout.with_proposed_ends(x, state, 0.5).breaks[1] - 1.0 == pytest.approx(short, rel=0.2)

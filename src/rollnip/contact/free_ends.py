@@ -273,7 +273,7 @@ class Layout:
         out[ends[self.is_edge]] = FREE
         return out
 
-    def moved(self, x: Array, state: ContactState, friction: float) -> Layout:
+    def with_proposed_ends(self, x: Array, state: ContactState, friction: float) -> Layout:
         """Return the layout with its breaks where a solution with its states proposes them.
 
         The pressure at an edge, and mu p - |q| at the trailing end of stick, vanish as a square
@@ -317,7 +317,8 @@ class Layout:
     ) -> Layout:
         """Return the layout with slip zones added at edges where stick leaves out some slip.
 
-        ``least``: length of the shortest slip zone to add [mm]; other arguments as in `moved`.
+        ``least``: length of the shortest slip zone to add [mm]; other arguments as in
+        `with_proposed_ends`.
         """
         ends, breaks, states = self.ends(x), self.breaks.tolist(), self.states.tolist()
         for edge in np.flatnonzero(self.is_edge)[::-1].tolist():

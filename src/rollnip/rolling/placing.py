@@ -1,8 +1,9 @@
 """The free boundary at one mesh size: meshes whose nodes follow the ends of zones.
 
-The tractions at the first nodes beside each end propose where it should be (`contact.Layout.moved`)
-and Broyden's method moves it there (`contact.secants`). Once the ends are nearly right, a solution
-shows whether its zones are the right ones (`search.ZoneSearch`).
+The tractions at the first nodes beside each end propose where it should be
+(`contact.Layout.with_proposed_ends`), and Broyden's method moves it there (`contact.secants`). Once
+the ends are nearly right, a solution shows whether its zones are the right ones
+(`search.ZoneSearch`).
 """
 
 from __future__ import annotations
@@ -311,7 +312,7 @@ class Placing:
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
-        return latest, layout.moved(mesh.inner, latest.state, self.nip.friction)
+        return latest, layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
 
 
 def _untried(

@@ -139,7 +139,7 @@ class Zones(SideZones):
         """
         x = problem.mesh.inner
         proposed = [
-            side.moved(x, state.side(number), friction)
+            side.with_proposed_ends(x, state.side(number), friction)
             for number, (side, friction) in enumerate(
                 zip(self.sides, problem.frictions, strict=True)
             )

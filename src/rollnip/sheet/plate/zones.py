@@ -103,7 +103,7 @@ class PlateZones(SideZones):
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
-            proposed = side.moved(x, state.side(number), friction).breaks
+            proposed = side.with_proposed_ends(x, state.side(number), friction).breaks
             if called is not None:
                 proposed = np.where(np.isfinite(proposed), proposed, called.sides[number].breaks)
             trailing, leading = side.edges

@@ -333,7 +333,7 @@ def test_ends_on_their_way_never_cross():
     """An end asked for beyond its zone, or nowhere, moves part of the way."""
     layout = Layout(np.array([0.0, 1.0, 3.0]), np.array([PLUS, STICK], dtype=np.int8))
     for asked in ([0.0, -5.0, 3.0], [0.0, 9.0, 3.0], [0.0, np.inf, 3.0], [4.0, 2.0, -1.0]):
-        moved = layout.towards(Layout(np.array(asked), layout.states))
+        moved = layout.stepped_towards(Layout(np.array(asked), layout.states))
         assert moved.is_proper
         assert np.all(np.diff(moved.breaks) <= 2.0 * np.diff(layout.breaks) + 1e-12)
         wanted = np.sign(np.array(asked) - layout.breaks)

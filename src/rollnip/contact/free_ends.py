@@ -170,7 +170,7 @@ class Layout:
         moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
-    def towards(self, proposed: Layout) -> Layout:
+    def stepped_towards(self, proposed: Layout) -> Layout:
         """Return this layout with its breaks moved towards proposed places, in limited steps.
 
         A break moves by at most `_LONGEST_MOVE` of the zone that it shortens, so that breaks do not

@@ -71,7 +71,9 @@ class Secants:
         """
         moves = self._moves(layout, proposed, singular)
         given = ~np.isfinite(moves)
-        lost = np.clip(layout.towards(proposed).breaks - layout.breaks, -self.reach, self.reach)
+        lost = np.clip(
+            layout.stepped_towards(proposed).breaks - layout.breaks, -self.reach, self.reach
+        )
         steps = np.where(given, lost, 0.0)
         self.reach *= 2.0 if given.any() else 1.0
         slope = self._learnt(layout.breaks, moves)
@@ -88,7 +90,7 @@ class Secants:
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if is_still else None
-        there = layout.towards(Layout(layout.breaks + steps, layout.states))
+        there = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
         places = self._half_way(layout.breaks, layout.breaks + moves, there.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)

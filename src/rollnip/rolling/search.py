@@ -105,7 +105,7 @@ class ZoneSearch:
             return
         wanted = self.wanted(latest, layout, whole=is_placed)
         if wanted is not None:
-            edges = proposed if proposed.is_proper else layout.towards(proposed)
+            edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
             # Like zones are no news: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):

@@ -160,7 +160,7 @@ class Zones(SideZones):
         """Return the edges, moved towards proposed ones as far as the zones of both sides allow."""
         most, edges = LONGEST_MOVE * self.width, np.array(self.edges)
         upper, lower = (
-            side.towards(wanted).breaks[[0, -1]] - edges
+            side.stepped_towards(wanted).breaks[[0, -1]] - edges
             for side, wanted in zip(self.sides, proposed, strict=True)
         )
         moves = np.where(np.abs(upper) < np.abs(lower), upper, lower)

@@ -53,7 +53,7 @@ class Secants:
         """
         self.last = self._within = None
 
-    def next(
+    def next_layout(
         self, layout: Layout, proposed: Layout, singular: Array | None, *, is_still: bool
     ) -> Layout:
         """Return the zones with their ends at the next places to try.
@@ -90,8 +90,8 @@ class Secants:
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if is_still else None
-        there = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
-        places = self._half_way(layout.breaks, layout.breaks + moves, there.breaks)
+        limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
+        places = self._half_way(layout.breaks, layout.breaks + moves, limited.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
 
@@ -116,7 +116,7 @@ class Secants:
             self.slope = self.slope + np.outer(missed, step) / max(float(step @ step), _TINY)
         return self.slope
 
-    def _half_way(self, breaks: Array, proposed: Array, there: Array) -> Array:
+    def _half_way(self, breaks: Array, proposed: Array, limited: Array) -> Array:
         """Return the next places, with bisection for ends that no finite place is proposed for.
 
         The edges of a single zone always stay between the last places that called for either
@@ -130,8 +130,8 @@ class Secants:
         self._within = low, high
         # Bracketing holds only for these: there is no transition to move them.
         is_alone = breaks.size == 2 and self._unit is None
-        lost = np.isinf(proposed) | ((there <= low) | (there >= high) if is_alone else False)
-        out = there.copy()
+        lost = np.isinf(proposed) | ((limited <= low) | (limited >= high) if is_alone else False)
+        out = limited.copy()
         between = lost & np.isfinite(low) & np.isfinite(high)
         out[between] = 0.5 * (low[between] + high[between])
         away = lost & ~between & np.isfinite(proposed)

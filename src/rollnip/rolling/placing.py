@@ -114,12 +114,14 @@ class Placing:
             is_still = latest.settled and is_quiet
             # Errors are estimated from sizes with the same zones only.
             is_close = closely and layout.is_like(start.layout)
-            there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
+            next_layout = ends.next_layout(
+                layout, proposed, self._singular(latest, layout), is_still=is_still
+            )
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
-            elif length_change_ratio(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
+            elif length_change_ratio(layout.breaks, next_layout.breaks, self.model.tolerance) > 1.0:
                 effect = None  # zones change too much for what another size has shown to apply
-            left = None if effect is None else effect.times(there.distance(layout))
+            left = None if effect is None else effect.times(next_layout.distance(layout))
             last = layout, latest.figures
             by_figures = is_close and self._rests_by_figures
             is_placed = (
@@ -143,10 +145,12 @@ class Placing:
             elif is_placed:
                 if self.search.pulls(latest):
                     return None
-                placed = _state_at(there, latest, state, misplacement)
+                placed = _state_at(next_layout, latest, state, misplacement)
                 return replace(placed, left=left, effect=effect if is_seen else None)
             else:
-                state = self._renewed(SearchState(there, latest, state.change, state.expected))
+                state = self._renewed(
+                    SearchState(next_layout, latest, state.change, state.expected)
+                )
         return None
 
     def solved_at_moved_ends(self, state: SearchState) -> SearchState | None:

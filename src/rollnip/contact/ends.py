@@ -40,14 +40,14 @@ def slip_beside(
             beside = edge + inwards * apart * np.array([1, 2, 3])
             distance = np.abs(x[beside] - x[edge]).tolist()
             values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
-            lengths.append(-outwards(distance, values, smooth=leads))
+            lengths.append(-outward_move(distance, values, smooth=leads))
         near, far = lengths
         if abs(far - near) < near < inf:
             return near, slip
     return 0.0, State.STICK
 
 
-def outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
+def outward_move(distance: _Three, values: _Three, *, smooth: bool) -> float:
     """Return how far outwards the end of a zone should move, from values at three nodes inside it.
 
     The values are fitted by s, s^3 and a third function, s being the square root of the distance

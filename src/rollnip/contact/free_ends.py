@@ -18,7 +18,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from rollnip.contact.ends import RESPONSE, outwards, slip_beside
+from rollnip.contact.ends import RESPONSE, outward_move, slip_beside
 from rollnip.contact.features import ContactZone, transition
 from rollnip.contact.problem import (
     FREE,
@@ -307,7 +307,7 @@ class Layout:
                 beside = [end + inwards * apart * i for i in (1, 2, 3)]
                 distance = [abs(nodes[i] - place) for i in beside]
                 values = [bound * pressure[i] - sign * shear[i] for i in beside]
-                step, apart = outwards(distance, values, smooth=smooth), 2 * apart
+                step, apart = outward_move(distance, values, smooth=smooth), 2 * apart
                 reach = distance[-1]
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)

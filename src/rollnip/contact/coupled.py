@@ -176,7 +176,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     if problem.friction == 0.0:
         return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
     out: States = kept.astype(np.int8)  # 1: STICK
-    _let_slip(out, kept, problem, solution, drift, rounding * largest)
+    _mark_slipping(out, kept, problem, solution, drift, rounding * largest)
     (new,) = (kept & ~in_contact).nonzero()
     if new.size:
         out[new] = _nearest_states(states, in_contact, new)
@@ -197,11 +197,11 @@ def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) 
     little = rounding * float(np.abs(pressure).max())
     kept: Mask = (states != FREE) & (pressure >= -little)
     out[kept] = STICK
-    _let_slip(out, kept, problem, solution, drift, little)
+    _mark_slipping(out, kept, problem, solution, drift, little)
     return out
 
 
-def _let_slip(
+def _mark_slipping(
     out: States,
     kept: Mask,
     problem: ContactProblem,

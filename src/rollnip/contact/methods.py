@@ -68,14 +68,14 @@ class Safeguarded:
         if solution.settled or problem.x.size > self.most_nodes:
             return solution
         try:
-            slow = self._at_once(problem)
+            slow = self._by_interior_point(problem)
         except np.linalg.LinAlgError:
             slow = unsolved(problem)
         if not slow.settled and np.any(solution.pressure):
             slow = solution
         return replace(slow, steps=solution.steps + slow.steps)
 
-    def _at_once(self, problem: ContactProblem) -> ContactState:
+    def _by_interior_point(self, problem: ContactProblem) -> ContactState:
         """Return the interior-point solution, settled if its own solution implies its states."""
         found = interior_point(*inequalities_of(problem))
         states = found.touches.astype(np.int8)  # 1: STICK

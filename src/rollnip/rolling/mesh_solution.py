@@ -18,7 +18,7 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Array, Mesh
 
-_ALIKE = 1e-4  # relative difference of peaks that agree in the four digits shown
+_EQUAL_PEAKS = 1e-4  # relative difference of peaks that agree in the four digits shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +180,7 @@ def peaks_alike(pressure: Array) -> list[int]:
     Peaks count as equally high if they agree in the four digits shown. A stiff skin has peaks
     beside both edges, and rounding would decide which one is higher.
     """
-    (high,) = (pressure >= (1.0 - _ALIKE) * pressure.max()).nonzero()
+    (high,) = (pressure >= (1.0 - _EQUAL_PEAKS) * pressure.max()).nonzero()
     if high.size < 2:
         return [int(pressure.argmax())]
     fence = np.concatenate([[-np.inf], pressure, [-np.inf]])

@@ -137,7 +137,7 @@ def _from_nearby(
     ``sizes``: half-width of the contact [mm] and strain of the surface.
     """
     half_width, strain = sizes
-    begun = None if near is None else near.begun(nip, model, kernels, half_width)
+    begun = None if near is None else near.first_contact(nip, model, kernels, half_width)
     if near is None or begun is None:
         return None
     orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)

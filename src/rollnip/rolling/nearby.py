@@ -42,7 +42,7 @@ class Nearby:
         held = self.kernels.held
         return (None, None) if held is None else held.bodies
 
-    def begun(
+    def first_contact(
         self, nip: Nip, model: Model, kernels: PairKernels, half_width: float
     ) -> tuple[PairKernels, MeshSolution] | None:
         """Return the contact of another nip with the correction of this one held.

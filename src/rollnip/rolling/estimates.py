@@ -69,13 +69,13 @@ def refinement_level(
 
 
 def with_errors(
-    nip: Nip, latest: MeshSolution, history: list[RefinementLevel], left: Figures | None
+    nip: Nip, latest: MeshSolution, history: list[RefinementLevel], end_error: Figures | None
 ) -> MeshSolution:
     """Return the solution with the estimated errors of the figures held to the tolerance.
 
     An error is the sum of the discretisation error, what the remaining misplacement of ends may
-    change (``left``), and the effect of relaxation within an edge element. The changes between mesh
-    sizes do not show the last two: meshes agree on wrong figures if their ends are equally
+    change (``end_error``), and the effect of relaxation within an edge element. The changes between
+    mesh sizes do not show the last two: meshes agree on wrong figures if their ends are equally
     misplaced, or if the elements of all are too long.
     """
     figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
@@ -86,8 +86,8 @@ def with_errors(
         creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(nip, latest, history).array() + unseen
-    if left is not None:
-        error += left.array()
+    if end_error is not None:
+        error += end_error.array()
     return replace(latest, error=Figures(*error.tolist()))
 
 

@@ -106,7 +106,7 @@ def _refined(
         if is_repeated and history:
             history.pop()
         history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
-        best = latest = with_errors(nip, latest, history, state.left)
+        best = latest = with_errors(nip, latest, history, state.end_error)
         ratio = error_ratio(nip, latest, model.tolerance)
         zones_rest = count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and zones_rest:

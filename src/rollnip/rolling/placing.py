@@ -94,7 +94,7 @@ class Placing:
         shape: Shape | None = None
         ends, meshes, is_seen = Secants(known_to * start.layout.width), 0, True
         last: tuple[Layout, Figures] | None = None
-        effect = start.effect
+        end_sensitivity = start.end_sensitivity
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
         while meshes < most_meshes and _can_be_placed(state.layout):
@@ -118,16 +118,22 @@ class Placing:
                 layout, proposed, self._singular(latest, layout), is_still=is_still
             )
             if last is not None:
-                effect = _effect_of_ends(last, (layout, latest.figures))
+                end_sensitivity = _sensitivity_to_ends(last, (layout, latest.figures))
             elif length_change_ratio(layout.breaks, next_layout.breaks, self.model.tolerance) > 1.0:
-                effect = None  # zones change too much for what another size has shown to apply
-            left = None if effect is None else effect.times(next_layout.distance(layout))
+                end_sensitivity = (
+                    None  # zones change too much for what another size has shown to apply
+                )
+            end_error = (
+                None
+                if end_sensitivity is None
+                else end_sensitivity.times(next_layout.distance(layout))
+            )
             last = layout, latest.figures
             by_figures = is_close and self._rests_by_figures
             is_placed = (
                 self._is_placed(layout, proposed, known=known, by_figures=by_figures)
                 and (proposed.is_proper and is_still)
-                and not (by_figures and self._changes(latest, left))
+                and not (by_figures and self._changes(latest, end_error))
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
@@ -140,13 +146,17 @@ class Placing:
                 state, shape = self._renewed(other), None
                 ends = Secants(known_to * layout.width)
                 # Ends that have been placed before hardly move: their effect cannot be measured.
-                is_seen, effect = is_seen and not is_placed, None
+                is_seen, end_sensitivity = is_seen and not is_placed, None
                 meshes = 0
             elif is_placed:
                 if self.search.pulls(latest):
                     return None
                 placed = _state_at(next_layout, latest, state, misplacement)
-                return replace(placed, left=left, effect=effect if is_seen else None)
+                return replace(
+                    placed,
+                    end_error=end_error,
+                    end_sensitivity=end_sensitivity if is_seen else None,
+                )
             else:
                 state = self._renewed(
                     SearchState(next_layout, latest, state.change, state.expected)
@@ -251,14 +261,17 @@ class Placing:
             length = min(length, self.boundary)
         return proposed.distance(layout) * layout.width <= most * length
 
-    def _changes(self, latest: MeshSolution, left: Figures | None) -> bool:
+    def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.
 
-        ``left``: the expected changes; None: unknown, and taken as too large.
+        ``end_error``: the expected changes; None: unknown, and taken as too large.
         """
-        if left is None:
+        if end_error is None:
             return True
-        return error_ratio(self.nip, replace(latest, error=left), self.model.tolerance) > NEGLIGIBLE
+        return (
+            error_ratio(self.nip, replace(latest, error=end_error), self.model.tolerance)
+            > NEGLIGIBLE
+        )
 
     def _exceeds_bound(self, latest: MeshSolution) -> bool:
         """Return whether the shear beside a transition exceeds its bound by more than allowed.
@@ -329,7 +342,7 @@ def _untried(
     return None
 
 
-def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:
+def _sensitivity_to_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:
     """Return the change of the figures by the last move of the ends, per length of the move."""
     step = now[0].distance(before[0])
     return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)

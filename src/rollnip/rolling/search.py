@@ -49,8 +49,9 @@ class SearchState:
         the tolerance.
     expected : sum of the changes that further evaluations would make, over the tolerance.
     misplacement : largest error of the ends of zones, over the width of the contact.
-    left : change of each figure that this misplacement may cause; None: not known.
-    effect : change of each figure per misplacement of the ends, over the width; None: not known.
+    end_error : change of each figure that this misplacement may cause; None: not known.
+    end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
+        known.
     """
 
     layout: Layout
@@ -58,8 +59,8 @@ class SearchState:
     change: float = inf
     expected: float = inf
     misplacement: float = NEAR_ENOUGH
-    left: Figures | None = None
-    effect: Figures | None = None
+    end_error: Figures | None = None
+    end_sensitivity: Figures | None = None
 
     @property
     def is_quiet(self) -> bool:

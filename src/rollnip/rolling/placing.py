@@ -149,7 +149,7 @@ class Placing:
                 is_seen, end_sensitivity = is_seen and not is_placed, None
                 meshes = 0
             elif is_placed:
-                if self.search.pulls(latest):
+                if self.search.has_tension(latest):
                     return None
                 placed = _state_at(next_layout, latest, state, misplacement)
                 return replace(
@@ -182,7 +182,7 @@ class Placing:
             is_placed = self._is_placed(layout, proposed, known=True)
             if (
                 not proposed.is_proper
-                or self.search.wanted(latest, layout, whole=is_placed) is not None
+                or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
             ):
                 return None
             if misplacement > max(self.model.tolerance, before):
@@ -351,7 +351,7 @@ def _sensitivity_to_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figu
 def _is_false_at_edge(latest: MeshSolution) -> bool:
     """Return whether the pressure at an edge shows that the edge is misplaced."""
     pressure = latest.state.pressure
-    return latest.mesh.pulls_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
+    return latest.mesh.has_tension_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
 
 
 def _can_be_placed(layout: Layout) -> bool:

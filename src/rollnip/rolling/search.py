@@ -104,7 +104,7 @@ class ZoneSearch:
                 yield SearchState(fewer, latest)
         if not (is_placed or is_near):
             return
-        wanted = self.wanted(latest, layout, whole=is_placed)
+        wanted = self.changed_states(latest, layout, checks_contact=is_placed)
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
@@ -116,12 +116,14 @@ class ZoneSearch:
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
             yield SearchState(slipping, latest)
-        if self.pulls(latest):
+        if self.has_tension(latest):
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
                 yield SearchState(opened, latest)
 
-    def wanted(self, latest: MeshSolution, layout: Layout, *, whole: bool) -> States | None:
+    def changed_states(
+        self, latest: MeshSolution, layout: Layout, *, checks_contact: bool
+    ) -> States | None:
         """Return the states that a solution calls for; None if no node in contact changes.
 
         Violations up to `NEGLIGIBLE` times the tolerance change no state. If all of the tolerance
@@ -129,21 +131,22 @@ class ZoneSearch:
         covering depends. At finite strain all of it is allowed, as the correction may leave as
         much. Nodes next to the ends of zones do not count, as the ends may be misplaced.
 
-        ``whole``: whether to check contact too; until the edges are placed, only stick and slip.
+        ``checks_contact``: whether to check contact too; until the edges are placed, only stick and
+        slip are checked.
         """
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
             slack *= NEGLIGIBLE
-        wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
+        wanted = (next_states if checks_contact else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
         differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
-        return next_slip(latest.problem, latest.state, slack) if whole else wanted
+        return next_slip(latest.problem, latest.state, slack) if checks_contact else wanted
 
-    def pulls(self, latest: MeshSolution) -> bool:
+    def has_tension(self, latest: MeshSolution) -> bool:
         """Return whether there is tension in the contact, outside the elements at edges."""
         return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 

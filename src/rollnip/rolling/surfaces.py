@@ -207,7 +207,7 @@ class Mesh:
         values = self.fine.values
         return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
 
-    def pulls_at_edge(self, pressure: Array) -> bool:
+    def has_tension_at_edge(self, pressure: Array) -> bool:
         """Return whether there is tension in the elements at the edges.
 
         An edge that lies too far out by delta has p ~ sqrt(y) - delta/(2 sqrt(y)) beside it, which

@@ -95,13 +95,13 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
         where no solution is found, or a system is singular.
     """
     iterate, best = _Iterate.of(problem, start), inf
-    diverged = max(iterate.left, 1.0) / _SMALL
+    diverged = max(iterate.violation, 1.0) / _SMALL
     solution: Complementary | None = None
     for steps in range(_MOST_STEPS):
-        left = iterate.left
-        if left < min(best, enough):
-            best, solution = left, iterate.solution(steps)
-        if best < _SMALLEST or best < min(left, _SMALL) or not left < diverged:
+        violation = iterate.violation
+        if violation < min(best, enough):
+            best, solution = violation, iterate.solution(steps)
+        if best < _SMALLEST or best < min(violation, _SMALL) or not violation < diverged:
             break
         iterate.advance()
     if solution is None:
@@ -139,7 +139,7 @@ class _Iterate:
         return cls(problem, sizes, matrix, problem.right / problem.scales, start / sizes, creeps)
 
     @property
-    def left(self) -> float:
+    def violation(self) -> float:
         """Return the violation: the mean complementarity product, or the largest residual if more.
 
         Infinite where rounding has brought a shear up to its bound.
@@ -168,8 +168,8 @@ class _Iterate:
         mean = float(room @ creeps) / creeps.size
         _, opened, slid = direction(0.0)
         step = _longest(room, opened, creeps, slid)
-        left = float((room + step * opened) @ (creeps + step * slid)) / creeps.size
-        found, opened_too, slid_too = direction(mean * (left / mean) ** 3 - opened * slid)
+        remaining = float((room + step * opened) @ (creeps + step * slid)) / creeps.size
+        found, opened_too, slid_too = direction(mean * (remaining / mean) ** 3 - opened * slid)
         step = _longest(room, opened_too, creeps, slid_too)
         step = step if step == 1.0 else _SHORT_OF * step
         self.unknowns = self.unknowns + step * found

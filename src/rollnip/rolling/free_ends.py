@@ -74,13 +74,13 @@ def with_free_ends(
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
-        return _refined(placing, start, count, known=fewest > ENOUGH_FOR_ZONES)
+        return _refined(placing, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 
 
 def _refined(
-    placing: Placing, state: SearchState, count: int, *, known: bool
+    placing: Placing, state: SearchState, count: int, *, zones_known: bool
 ) -> MeshSolution | None:
     nip, model = placing.nip, placing.model
     history: list[RefinementLevel] = []
@@ -90,8 +90,13 @@ def _refined(
     is_repeated = False  # whether this size is solved a second time
     shown = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
     while count <= most:
-        closely = bool(history)  # from the second size on the error may meet the tolerance
-        placed = placing.placed(state, count, known=known or closely, closely=closely)
+        settles_figures = bool(history)  # from the second size on the error may meet the tolerance
+        placed = placing.solve(
+            state,
+            count,
+            zones_known=zones_known or settles_figures,
+            settles_figures=settles_figures,
+        )
         if placed is None:
             break
         if not placed.layout.is_like(state.layout):
@@ -101,7 +106,7 @@ def _refined(
         roughness = _roughness(nip, model, latest)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
-            count, known = _next_count(count, roughness, model.tolerance), True
+            count, zones_known = _next_count(count, roughness, model.tolerance), True
             continue
         if is_repeated and history:
             history.pop()

@@ -32,7 +32,7 @@ from rollnip.rolling.refinement import (
     IsTooDeep,
     by_nodes,
     finer_by_nodes,
-    placed,
+    free_ends_from_nodes,
     refine,
 )
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState
@@ -106,10 +106,10 @@ def begin(
                 held, before = _holding_second_order(nip, model, second(), located)
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = Placing(nip, coarse_model, held).placed(start, _COARSE, known=False)
+                found = Placing(nip, coarse_model, held).solve(start, _COARSE, zones_known=False)
                 if found is not None:
                     return held, found.before, Stage.COARSE
-    refined = placed(nip, model, kernels, located) if located.settled else None
+    refined = free_ends_from_nodes(nip, model, kernels, located) if located.settled else None
     if is_verified(refined, model):
         return kernels, refined, Stage.REFINED
     return kernels, located, Stage.COARSE
@@ -186,7 +186,7 @@ def _better(
     if latest.is_placed:
         found = _refined(nip, model, kernels, latest)
         return found, Stage.REFINED if found.is_placed else Stage.FINE
-    ready = placed(nip, model, kernels, latest) if stage is Stage.FINE else None
+    ready = free_ends_from_nodes(nip, model, kernels, latest) if stage is Stage.FINE else None
     if ready is not None and error_ratio(nip, ready, model.tolerance) <= 1.0:
         return ready, Stage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)
@@ -261,6 +261,6 @@ def _placed_again(
         search = SearchState(layout, replace(latest, second=second), misplacement=_COARSELY)
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
-            found = None if is_crowded else placing.solved_at_moved_ends(search)
-            found = found or placing.placed(search, as_cosines(latest), known=True)
+            found = None if is_crowded else placing.solve_at_moved_ends(search)
+            found = found or placing.solve(search, as_cosines(latest), zones_known=True)
     return replace(latest if found is None else found.before, settled=found is not None)

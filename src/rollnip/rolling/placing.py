@@ -69,8 +69,8 @@ class Placing:
     kernels: PairKernels
     given: GivenStates = field(default_factory=GivenStates)
 
-    def placed(
-        self, start: SearchState, count: int, *, known: bool, closely: bool = False
+    def solve(
+        self, start: SearchState, count: int, *, zones_known: bool, settles_figures: bool = False
     ) -> SearchState | None:
         """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -81,9 +81,10 @@ class Placing:
         ----------
         start : state of the search, with the zones to start from.
         count : rough number of elements.
-        known : whether the zones are known to be right.
-        closely : whether to place the ends so exactly that the figures no longer change with them.
-            Two meshes show how figures depend on ends, or one if the previous size has shown it.
+        zones_known : whether the zones are known to be right.
+        settles_figures : whether to place the ends so exactly that the figures no longer change
+            with them. Two meshes show how figures depend on ends, or one if the previous size has
+            shown it.
 
         Returns
         -------
@@ -110,10 +111,10 @@ class Placing:
             misplacement = proposed.distance(layout)
             known_to = min(known_to, misplacement)
             is_quiet = self.kernels.is_fixed or state.is_quiet
-            is_near = not known and misplacement < NEAR_ENOUGH and is_quiet
+            is_near = not zones_known and misplacement < NEAR_ENOUGH and is_quiet
             is_still = latest.settled and is_quiet
             # Errors are estimated from sizes with the same zones only.
-            is_close = closely and layout.is_like(start.layout)
+            is_close = settles_figures and layout.is_like(start.layout)
             next_layout = ends.next_layout(
                 layout, proposed, self._singular(latest, layout), is_still=is_still
             )
@@ -129,9 +130,9 @@ class Placing:
                 else end_sensitivity.times(next_layout.distance(layout))
             )
             last = layout, latest.figures
-            by_figures = is_close and self._rests_by_figures
+            by_figures = is_close and self._judges_ends_by_figures
             is_placed = (
-                self._is_placed(layout, proposed, known=known, by_figures=by_figures)
+                self._is_placed(layout, proposed, zones_known=zones_known, by_figures=by_figures)
                 and (proposed.is_proper and is_still)
                 and not (by_figures and self._changes(latest, end_error))
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
@@ -163,7 +164,7 @@ class Placing:
                 )
         return None
 
-    def solved_at_moved_ends(self, state: SearchState) -> SearchState | None:
+    def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
         """Return the solution with the ends moved to where the last solution put them.
 
         It takes one mesh like the last one if the ends hardly move, otherwise two. The ends need
@@ -179,7 +180,7 @@ class Placing:
             layout, before = state.layout, misplacement
             latest, proposed = self._solved_on(state, shape)
             misplacement = proposed.distance(layout)
-            is_placed = self._is_placed(layout, proposed, known=True)
+            is_placed = self._is_placed(layout, proposed, zones_known=True)
             if (
                 not proposed.is_proper
                 or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
@@ -238,7 +239,7 @@ class Placing:
         return min(coverings, default=inf) / _PIECES_PER_THICKNESS
 
     @property
-    def _rests_by_figures(self) -> bool:
+    def _judges_ends_by_figures(self) -> bool:
         """Whether ends count as placed once the figures no longer change with them.
 
         Without friction figures hardly depend on the ends; at finite strain corrections need exact
@@ -247,17 +248,17 @@ class Placing:
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
     def _is_placed(
-        self, layout: Layout, proposed: Layout, *, known: bool, by_figures: bool = False
+        self, layout: Layout, proposed: Layout, *, zones_known: bool, by_figures: bool = False
     ) -> bool:
         """Return whether the errors of the ends are small relative to the width of the contact.
 
         If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
-        otherwise a tenth of it. Without friction, the edges of ``known`` zones are placed relative
-        to the boundary layer instead, if it is shorter, as the pressure changes within it.
+        otherwise a tenth of it. Without friction, the edges of zones that are known are placed
+        relative to the boundary layer instead, if it is shorter, as the pressure changes within it.
         """
         most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
-        if known and self.nip.friction == 0.0:
+        if zones_known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
         return proposed.distance(layout) * layout.width <= most * length
 

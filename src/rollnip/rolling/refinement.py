@@ -70,7 +70,7 @@ def refine(
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
         if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
             return latest
-        found = placed(nip, model, kernels, latest) if latest.settled else None
+        found = free_ends_from_nodes(nip, model, kernels, latest) if latest.settled else None
         if is_verified(found, model):
             return found
         best = found or best
@@ -80,7 +80,7 @@ def refine(
     return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
 
 
-def placed(
+def free_ends_from_nodes(
     nip: Nip, model: Model, kernels: PairKernels, located: MeshSolution
 ) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node."""

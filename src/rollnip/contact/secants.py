@@ -54,7 +54,7 @@ class Secants:
         self.last = self._within = None
 
     def next_layout(
-        self, layout: Layout, proposed: Layout, singular: Array | None, *, is_still: bool
+        self, layout: Layout, proposed: Layout, singular: Array | None, *, only_ends_move: bool
     ) -> Layout:
         """Return the zones with their ends at the next places to try.
 
@@ -66,8 +66,8 @@ class Secants:
         proposed : the same zones with the ends where its solution puts them.
         singular : (2,) inverse square roots at the edges of a single zone, see `Layout.singular`;
             None: use the proposed moves themselves.
-        is_still : whether only the ends will change from this mesh to the next, so that the secant
-            between the two may be used.
+        only_ends_move : whether only the ends will change from this mesh to the next, so that the
+            secant between the two may be used.
         """
         moves = self._moves(layout, proposed, singular)
         given = ~np.isfinite(moves)
@@ -89,7 +89,7 @@ class Secants:
                 longest = np.inf  # the slope along the edges' path is known and nearly constant
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
-        self.last = (layout.breaks, moves) if is_still else None
+        self.last = (layout.breaks, moves) if only_ends_move else None
         limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
         places = self._half_way(layout.breaks, layout.breaks + moves, limited.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))

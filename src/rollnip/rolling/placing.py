@@ -112,11 +112,11 @@ class Placing:
             known_to = min(known_to, misplacement)
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not zones_known and misplacement < NEAR_ENOUGH and is_quiet
-            is_still = latest.settled and is_quiet
+            is_settled = latest.settled and is_quiet
             # Errors are estimated from sizes with the same zones only.
             is_close = settles_figures and layout.is_like(start.layout)
             next_layout = ends.next_layout(
-                layout, proposed, self._singular(latest, layout), is_still=is_still
+                layout, proposed, self._singular(latest, layout), only_ends_move=is_settled
             )
             if last is not None:
                 end_sensitivity = _sensitivity_to_ends(last, (layout, latest.figures))
@@ -133,7 +133,7 @@ class Placing:
             by_figures = is_close and self._judges_ends_by_figures
             is_placed = (
                 self._is_placed(layout, proposed, zones_known=zones_known, by_figures=by_figures)
-                and (proposed.is_proper and is_still)
+                and (proposed.is_proper and is_settled)
                 and not (by_figures and self._changes(latest, end_error))
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])

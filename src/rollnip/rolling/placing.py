@@ -15,16 +15,7 @@ from math import inf, log10
 
 import numpy as np
 
-from rollnip.contact import (
-    GivenStates,
-    Layout,
-    cosine_nodes,
-    crowding_of,
-    elements_of_zones,
-    subdivided,
-)
-from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
-from rollnip.contact.problem import Indices
+from rollnip.contact import GivenStates, Layout, elements_of_zones
 from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Model
@@ -39,10 +30,10 @@ from rollnip.rolling.iterations import (
     held_from,
     solve_on_mesh,
 )
-from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Array, PairKernels
+from rollnip.rolling.zone_meshes import Shape, ZoneMeshes, are_too_many, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -52,12 +43,6 @@ MOST_MESHES = 8
 # by more than a boundary layer is found by bisection, as a solution shows only in which direction
 # it should move.
 _MOST_HALVINGS = 6
-_NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
-_PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
-
-
-# Elements in each zone and their crowding.
-Shape = tuple[Indices, tuple[float, ...]]
 
 
 @dataclass(frozen=True)
@@ -97,12 +82,12 @@ class Placing:
         last: tuple[Layout, Figures] | None = None
         end_sensitivity = start.end_sensitivity
         tried: set[bytes] = set()
-        most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
+        most_meshes = self._most_meshes(self.meshes.crowding(start.layout))
         while meshes < most_meshes and _can_be_placed(state.layout):
             meshes += 1
             layout = state.layout
-            crowding = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
-            if shape is None or _crowds_more(crowding, shape[1]):
+            crowding = self.meshes.crowding(layout, known_to * layout.width)
+            if shape is None or crowds_more(crowding, shape[1]):
                 # Elements are kept while ends are sought, as another mesh would shift the ends.
                 shape = elements_of_zones(layout.breaks, count, crowding), crowding
                 ends.forget()
@@ -136,7 +121,7 @@ class Placing:
                 and (proposed.is_proper and is_settled)
                 and not (by_figures and self._changes(latest, end_error))
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
-                and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
+                and self.meshes.resolves(layout, shape)
             )
             others = self.search.other_zones(
                 latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
@@ -193,22 +178,15 @@ class Placing:
                 break
         return state
 
-    def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
-        """Return a mesh on roughly known zones, to seek states node by node."""
-        shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
-        nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape, self.longest_piece)
-        return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+    @cached_property
+    def meshes(self) -> ZoneMeshes:
+        """The meshes whose nodes follow the ends of zones."""
+        return ZoneMeshes(self.nip)
 
     @cached_property
     def search(self) -> ZoneSearch:
         """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model, self.kernels)
-
-    @cached_property
-    def boundary(self) -> float:
-        """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
-        return boundary_layer(self.nip)
 
     @cached_property
     def settled_change(self) -> float:
@@ -222,21 +200,6 @@ class Placing:
             if has_stiff_skin((self.nip.upper, self.nip.lower))
             else NEGLIGIBLE
         )
-
-    @cached_property
-    def longest_piece(self) -> float:
-        """Largest length of the linear pieces of the acting tractions [mm].
-
-        A thin incompressible covering on a rigid core moves as the second derivative of the
-        pressure, which linear pieces longer than its thickness cannot represent.
-        """
-        coverings = [
-            roller.coating_thickness
-            for roller in (self.nip.upper, self.nip.lower)
-            if not roller.is_rigid and roller.core is None
-            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-        ]
-        return min(coverings, default=inf) / _PIECES_PER_THICKNESS
 
     @property
     def _judges_ends_by_figures(self) -> bool:
@@ -259,7 +222,7 @@ class Placing:
         most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
         if zones_known and self.nip.friction == 0.0:
-            length = min(length, self.boundary)
+            length = min(length, self.meshes.boundary)
         return proposed.distance(layout) * layout.width <= most * length
 
     def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
@@ -325,7 +288,7 @@ class Placing:
     def _solved_on(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
         """Return the solution on one mesh, and the zones with the ends that it proposes."""
         layout, before = state.layout, state.before
-        mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
+        mesh = self.meshes.at_ends(layout, shape, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
@@ -358,23 +321,6 @@ def _is_false_at_edge(latest: MeshSolution) -> bool:
 def _can_be_placed(layout: Layout) -> bool:
     """Return whether all zones have a length, and are not too many."""
     return layout.is_proper and not are_too_many(layout.states.size)
-
-
-def are_too_many(zones: int) -> bool:
-    """Return whether there are more zones than a mesh can resolve; only errors make that many."""
-    return zones * LEAST_SHARE_OF_A_ZONE > 1.0
-
-
-def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
-    """Return whether nodes crowd more in any zone of ``one``, or the number of zones differs."""
-    return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
-
-
-def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:
-    """Return the mesh with nodes at the ends of zones; ``shortest``: see `subdivided`."""
-    nodes = cosine_nodes(layout.breaks, *shape)
-    edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-    return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest, edges))
 
 
 def _state_at(

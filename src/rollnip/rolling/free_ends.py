@@ -115,7 +115,7 @@ def _refined(
         ratio = error_ratio(nip, latest, model.tolerance)
         zones_rest = count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and zones_rest:
-            final = converge(nip, model, latest, placing.given, latest.zones)
+            final = converge(nip, model, latest, placing.solver.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
                 return with_secondary_errors(nip, final, history)

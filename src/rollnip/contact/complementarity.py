@@ -94,7 +94,7 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
     numpy.linalg.LinAlgError
         where no solution is found, or a system is singular.
     """
-    iterate, best = _Iterate.of(problem, start), inf
+    iterate, best = _InteriorPoint.of(problem, start), inf
     diverged = max(iterate.violation, 1.0) / _SMALL
     solution: Complementary | None = None
     for steps in range(_MOST_STEPS):
@@ -110,7 +110,7 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
 
 
 @dataclass(slots=True)
-class _Iterate:
+class _InteriorPoint:
     """One iterate of the interior-point method, in dimensionless form.
 
     Attributes
@@ -130,7 +130,7 @@ class _Iterate:
     creeps: Array
 
     @classmethod
-    def of(cls, problem: Inequalities, start: Array) -> _Iterate:
+    def of(cls, problem: Inequalities, start: Array) -> _InteriorPoint:
         """Return the first iterate, with all gaps and creeps equal."""
         sizes = problem.sizes.copy()
         sizes[problem.shears] = problem.frictions * sizes[problem.bounding]

@@ -102,7 +102,7 @@ def _refined(
         if not placed.layout.is_like(state.layout):
             history.clear()  # changes between different zones are no measure of the error
         state, latest = placed, placed.before
-        wanted, count = count, as_cosines(latest)
+        wanted, count = count, elements_without_crowding(latest)
         roughness = _roughness(nip, model, latest)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
@@ -140,7 +140,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     return int(max(count * growth, claimed)) + 1
 
 
-def as_cosines(latest: MeshSolution) -> int:
+def elements_without_crowding(latest: MeshSolution) -> int:
     """Return the number of elements that a solution would have without crowding of nodes."""
     fine = latest.mesh.fine
     shares = map(more_elements, fine.crowding)

@@ -22,7 +22,7 @@ from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
-from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
+from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
 from rollnip.rolling.iterations import NEGLIGIBLE, solve_on_mesh
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
@@ -262,5 +262,7 @@ def _placed_again(
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solve_at_moved_ends(search)
-            found = found or placing.solve(search, as_cosines(latest), zones_known=True)
+            found = found or placing.solve(
+                search, elements_without_crowding(latest), zones_known=True
+            )
     return replace(latest if found is None else found.before, settled=found is not None)

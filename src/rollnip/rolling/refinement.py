@@ -108,7 +108,7 @@ def by_nodes(
     before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
-        found, settled = _on(placing, half_width, count, before)
+        found, settled = _solve_at_size(placing, half_width, count, before)
         any_settled = any_settled or settled is not None
         if settled is not None or not any_settled:
             yield settled or found
@@ -124,11 +124,11 @@ def finer_by_nodes(
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
-    found, settled = _on(Placing(nip, model, kernels), 0.0, finer[0], before)
+    found, settled = _solve_at_size(Placing(nip, model, kernels), 0.0, finer[0], before)
     return settled or found
 
 
-def _on(
+def _solve_at_size(
     placing: Placing, half_width: float, count: int, before: MeshSolution | None
 ) -> tuple[MeshSolution, MeshSolution | None]:
     """Return the last solution node by node at one mesh size, and the last that has settled.
@@ -137,7 +137,7 @@ def _on(
     """
     last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
-        found = _on_one(placing, half_width, count, last or before)
+        found = _solve_on_mesh(placing, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _zones_are_known(placing, found, last):
             break
@@ -145,7 +145,7 @@ def _on(
     return found, found if found.settled else last
 
 
-def _on_one(
+def _solve_on_mesh(
     placing: Placing, half_width: float, count: int, before: MeshSolution | None
 ) -> MeshSolution:
     nip, model, kernels = placing.nip, placing.model, placing.kernels

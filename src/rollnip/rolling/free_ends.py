@@ -82,6 +82,7 @@ def with_free_ends(
 def _refined(
     placing: Placing, state: SearchState, count: int, *, zones_known: bool
 ) -> MeshSolution | None:
+    """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
     nip, model = placing.nip, placing.model
     history: list[RefinementLevel] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)

@@ -64,7 +64,7 @@ class SearchState:
 
     @property
     def is_quiet(self) -> bool:
-        """Return whether further evaluations of the second order would change it too little."""
+        """Return whether further evaluations of the second order would change it negligibly."""
         return self.expected <= 1.0
 
 
@@ -108,7 +108,7 @@ class ZoneSearch:
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
-            # Like zones are no news: their ends move anyway.
+            # For the same zones there is nothing to change: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):
                 yield found
         if not is_placed:
@@ -199,5 +199,5 @@ class ZoneSearch:
 
 
 def _keeps_stick(latest: MeshSolution) -> bool:
-    """Return whether a stick zone must be left, as a prescribed traction needs one."""
+    """Return whether a stick zone must remain, as a prescribed traction needs one."""
     return latest.problem.control.traction is not None

@@ -34,16 +34,16 @@ class Secants:
     ----------
     reach : longest move of an end with no finite proposed place: the misplacement expected at
         first, doubled each time an end has none [mm].
-    slope : (m, m) Jacobian of the proposed moves with respect to the places; None at first.
+    jacobian : (m, m) of the proposed moves with respect to the places; None at first.
     last : (m,) places of the ends on the last mesh, and the moves proposed there [mm].
     """
 
     reach: float = np.inf
-    slope: Array | None = None
+    jacobian: Array | None = None
     last: tuple[Array, Array] | None = None
     _longest: float = 0.0
     _unit: Array | None = None
-    _within: tuple[Array, Array] | None = None
+    _bracket: tuple[Array, Array] | None = None
     _vanishing: Mask | None = None
 
     def forget(self) -> None:
@@ -51,7 +51,7 @@ class Secants:
 
         The Jacobian is kept.
         """
-        self.last = self._within = None
+        self.last = self._bracket = None
 
     def next_layout(
         self, layout: Layout, proposed: Layout, singular: Array | None, *, only_ends_move: bool
@@ -76,22 +76,22 @@ class Secants:
         )
         steps = np.where(given, lost, 0.0)
         self.reach *= 2.0 if given.any() else 1.0
-        slope = self._learnt(layout.breaks, moves)
+        jacobian = self._updated_jacobian(layout.breaks, moves)
         free = ~given
         if free.any():
-            wanted = moves[free] + slope[np.ix_(free, given)] @ steps[given]
+            wanted = moves[free] + jacobian[np.ix_(free, given)] @ steps[given]
             try:
-                steps[free] = -np.linalg.solve(slope[np.ix_(free, free)], wanted)
+                steps[free] = -np.linalg.solve(jacobian[np.ix_(free, free)], wanted)
             except np.linalg.LinAlgError:
                 steps[free] = moves[free]
             longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
             if self._unit is not None and self.last is not None:
-                longest = np.inf  # the slope along the edges' path is known and nearly constant
+                longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if only_ends_move else None
         limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
-        places = self._half_way(layout.breaks, layout.breaks + moves, limited.breaks)
+        places = self._bracketed(layout.breaks, layout.breaks + moves, limited.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
 
@@ -104,30 +104,30 @@ class Secants:
             self._unit = moves / singular
         return moves if self._unit is None else self._unit * singular
 
-    def _learnt(self, breaks: Array, moves: Array) -> Array:
+    def _updated_jacobian(self, breaks: Array, moves: Array) -> Array:
         """Return the Jacobian after Broyden's update from the last two meshes."""
-        if self.slope is None:
-            self.slope = -np.eye(moves.size)
+        if self.jacobian is None:
+            self.jacobian = -np.eye(moves.size)
         if self.last is not None:
             step = breaks - self.last[0]
             known = np.isfinite(moves) & np.isfinite(self.last[1])
             missed = np.zeros(moves.size)
-            missed[known] = moves[known] - self.last[1][known] - self.slope[known] @ step
-            self.slope = self.slope + np.outer(missed, step) / max(float(step @ step), _TINY)
-        return self.slope
+            missed[known] = moves[known] - self.last[1][known] - self.jacobian[known] @ step
+            self.jacobian = self.jacobian + np.outer(missed, step) / max(float(step @ step), _TINY)
+        return self.jacobian
 
-    def _half_way(self, breaks: Array, proposed: Array, limited: Array) -> Array:
+    def _bracketed(self, breaks: Array, proposed: Array, limited: Array) -> Array:
         """Return the next places, with bisection for ends that no finite place is proposed for.
 
         The edges of a single zone always stay between the last places that called for either
         direction.
         """
-        if self._within is None:
-            self._within = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
-        low, high = self._within
+        if self._bracket is None:
+            self._bracket = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
+        low, high = self._bracket
         low = np.where(proposed > breaks, breaks, np.where(low < breaks, low, -np.inf))
         high = np.where(proposed < breaks, breaks, np.where(high > breaks, high, np.inf))
-        self._within = low, high
+        self._bracket = low, high
         # Bracketing holds only for these: there is no transition to move them.
         is_alone = breaks.size == 2 and self._unit is None
         lost = np.isinf(proposed) | ((limited <= low) | (limited >= high) if is_alone else False)

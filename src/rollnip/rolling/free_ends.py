@@ -89,7 +89,7 @@ def _refined(
     most = max(most, _MOST_TIMES_FIRST * count)
     best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
-    shown = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
+    last_ratio = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
     while count <= most:
         settles_figures = bool(history)  # from the second size on the error may meet the tolerance
         placed = placing.solve(
@@ -114,8 +114,10 @@ def _refined(
         history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.end_error)
         ratio = error_ratio(nip, latest, model.tolerance)
-        zones_rest = count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
-        if largest(ratio, roughness) <= 1.0 and zones_rest:
+        zones_converged = (
+            count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
+        )
+        if largest(ratio, roughness) <= 1.0 and zones_converged:
             final = converge(nip, model, latest, placing.solver.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
@@ -124,8 +126,10 @@ def _refined(
             if not is_repeated:
                 is_repeated, count = True, wanted  # once more, with the ends where they moved to
                 continue
-        shown = min(shown, _FIRST_ERROR_RATIO) if ratio == inf else largest(ratio, roughness)
-        finer = _next_count(count, shown, model.tolerance)
+        last_ratio = (
+            min(last_ratio, _FIRST_ERROR_RATIO) if ratio == inf else largest(ratio, roughness)
+        )
+        finer = _next_count(count, last_ratio, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
     return None if best is None or len(history) < 2 else with_secondary_errors(nip, best, history)

@@ -40,7 +40,7 @@ def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
 def test_a_second_order_that_did_not_move_at_all_is_still(placing):
     search, start = placing
     stand = search.solve(start, 26, zones_known=False)
-    again = search._renewed(replace(stand, change=0.0, expected=inf))
+    again = search.solver.renewed(replace(stand, change=0.0, expected=inf))
     assert again.change > 0.0
     assert again.expected == pytest.approx(9.0 * again.change)
 
@@ -48,9 +48,9 @@ def test_a_second_order_that_did_not_move_at_all_is_still(placing):
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
     search, start = placing
     stand = search.solve(start, 26, zones_known=False)
-    once = search._renewed(replace(stand, change=inf, expected=inf))
+    once = search.solver.renewed(replace(stand, change=inf, expected=inf))
     assert once.expected == inf  # one change tells nothing
-    twice = search._renewed(replace(stand, change=4.0 * once.change, expected=inf))
+    twice = search.solver.renewed(replace(stand, change=4.0 * once.change, expected=inf))
     assert twice.expected == pytest.approx(once.change / 3.0)
 
 

@@ -137,7 +137,7 @@ def _solve_at_size(
     """
     last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
-        found = _solve_on_mesh(placing, half_width, count, last or before)
+        found = _solve_by_nodes(placing, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _zones_are_known(placing, found, last):
             break
@@ -145,9 +145,10 @@ def _solve_at_size(
     return found, found if found.settled else last
 
 
-def _solve_on_mesh(
+def _solve_by_nodes(
     placing: Placing, half_width: float, count: int, before: MeshSolution | None
 ) -> MeshSolution:
+    """Return the solution node by node on a mesh around the zones of ``before``, or a guess."""
     nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
         around = Layout.with_free_surfaces(

@@ -10,7 +10,7 @@ from rollnip.interior import SurfaceTractions, interior_field
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.round import Round
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.surfaces import Array
 
 MOST_PRESSED_IN = 0.5
@@ -24,7 +24,7 @@ MOST_CREEPAGE = 2.0
 """Creepage at which one roller stands still; beyond, it would rotate backwards."""
 
 
-def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
+def impossible(nip: Nip, geometry: Geometry, final: MeshSolution) -> str:
     """Return why the result is no nip, in a sentence; "" where nothing speaks against it."""
     creepage = final.state.creepage
     if not isnan(creepage) and abs(creepage) >= MOST_CREEPAGE:
@@ -40,7 +40,7 @@ def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
     return ""
 
 
-def is_too_deep(nip: Nip, geometry: Geometry, found: Round, *, is_rough: bool) -> bool:
+def is_too_deep(nip: Nip, geometry: Geometry, found: MeshSolution, *, is_rough: bool) -> bool:
     """Return whether a layer is pressed in too far for a finer mesh or finite strain to be tried.
 
     In a solution that ``is_rough``, before finite strain or on a first mesh, that is by its whole
@@ -68,7 +68,9 @@ def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
     )
 
 
-def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: Round) -> Array:
+def _pressed_in(
+    side: str, roller: Roller, nip: Nip, geometry: Geometry, final: MeshSolution
+) -> Array:
     """Return the compression of each layer over its thickness, under the deepest surface point.
 
     Nothing is returned where no layer can be pressed in too far. A free column under the peak is

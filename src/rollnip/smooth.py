@@ -16,14 +16,14 @@ from rollnip._sealed import sealed
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
+    MeshSolution,
     PairKernels,
     Powers,
-    Round,
     claims,
     fields_at,
-    further_claims,
     peak_pressure,
     powers,
+    secondary_claims,
     surface_depths,
 )
 from rollnip.solution import Solution
@@ -41,7 +41,7 @@ class SmoothSolution(Solution):
     kernels : the influence functions of both rollers.
     """
 
-    final: Round = field(repr=False, kw_only=True)
+    final: MeshSolution = field(repr=False, kw_only=True)
     kernels: PairKernels = field(repr=False, kw_only=True)
 
     @property
@@ -104,8 +104,8 @@ class SmoothSolution(Solution):
 
     def _claimed_errors(self) -> dict[str, float]:
         geometry, final = self.model.geometry, self.final
-        further = further_claims(self.nip, geometry, final, self._powers)
-        return claims(self.nip, geometry, final) | further
+        secondary = secondary_claims(self.nip, geometry, final, self._powers)
+        return claims(self.nip, geometry, final) | secondary
 
     @cached_property
     def profiles(self) -> Profiles:

@@ -30,10 +30,10 @@ from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.no_nip import impossible, is_too_deep
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
-    Ended,
+    IterationFailure,
+    MeshSolution,
     Nearby,
     PairKernels,
-    Round,
     half_width_guess,
     has_grip,
     pair_kernels,
@@ -167,7 +167,7 @@ def _solve_smooth(
     given_up: list[tuple[Geometry, str]] = []
     while model.geometry in FINITE and (cause := _why_no_solution(nip, model, final)):
         given_up.append((model.geometry, cause))
-        is_deep = final.ended is not None and final.ended.cause == "depth"
+        is_deep = final.failure is not None and final.failure.cause == "depth"
         model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
         kernels, final = _influence_and_contact(nip, model, cache, None)
     if not final.zones:
@@ -199,7 +199,7 @@ def _solve_smooth(
 
 def _influence_and_contact(
     nip: Nip, model: Model, cache: KernelCache, near: Solution | None
-) -> tuple[PairKernels, Round]:
+) -> tuple[PairKernels, MeshSolution]:
     """Return the influence functions of both rollers, and the contact on the last mesh."""
     # Influence functions; those of second order are tabulated for a contact of the guessed width.
     kernels = pair_kernels(nip, model.geometry, cache)
@@ -220,7 +220,7 @@ def _as_start(near: Solution | None) -> Nearby | None:
     return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
 
 
-def _why_no_solution(nip: Nip, model: Model, final: Round) -> str:
+def _why_no_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
     """Return why a geometry of finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one, so that the choice of the geometry never
@@ -229,8 +229,8 @@ def _why_no_solution(nip: Nip, model: Model, final: Round) -> str:
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
-    if final.ended is not None:
-        return _how_far(final.ended)
+    if final.failure is not None:
+        return _how_far(final.failure)
     if not final.geometry_change < _DIVERGED:
         return (
             f"its {BEYOND[model.geometry]} did not settle (they last changed by "
@@ -241,20 +241,20 @@ def _why_no_solution(nip: Nip, model: Model, final: Round) -> str:
     return "" if final.settled else "contact, stick and slip did not settle"
 
 
-def _how_far(ended: Ended) -> str:
+def _how_far(failure: IterationFailure) -> str:
     """Return why the iteration of contact and correction found no solution, and how far it got."""
-    done, change = ended.iterations, f"{ended.change:.2g}"
-    if ended.cause == "depth":
+    done, change = failure.iterations, f"{failure.change:.2g}"
+    if failure.cause == "depth":
         return "without finite strain a layer is pressed in by its whole thickness or more"
-    if ended.cause == "balance" and done == 0:
+    if failure.cause == "balance" and done == 0:
         return "no equilibrium was found under its tractions, nor under a sixteenth of them"
-    if ended.cause == "balance":
+    if failure.cause == "balance":
         return (
             f"no equilibrium was found under its tractions in iteration {done + 1} of contact and "
             f"correction (in the iteration before, its terms beyond the linear ones changed by "
             f"{change} of the first-order ones)"
         )
-    if ended.cause == "contact":
+    if failure.cause == "contact":
         return (
             f"contact, stick and slip did not settle in iteration {done} of contact and "
             f"correction (in it, its terms beyond the linear ones changed by {change} of the "
@@ -266,7 +266,7 @@ def _how_far(ended: Ended) -> str:
     )
 
 
-def _require_grip(nip: Nip, final: Round) -> None:
+def _require_grip(nip: Nip, final: MeshSolution) -> None:
     """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
@@ -284,7 +284,7 @@ def _require_grip(nip: Nip, final: Round) -> None:
     )
 
 
-def _check(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+def _check(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """Return whether the solution is verified, and the status sentence that says so or what helps.
 
     The conditions are checked in the order in which one makes the next meaningful: iterations
@@ -296,7 +296,7 @@ def _check(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     return is_verified, status
 
 
-def _first_failure(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """Return `_check` without what it adds on very thin coverings and very small friction."""
     if not final.settled and _may_spin(nip, final):
         return False, (
@@ -338,14 +338,14 @@ def _first_failure(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
-def _may_spin(nip: Nip, final: Round) -> bool:
+def _may_spin(nip: Nip, final: MeshSolution) -> bool:
     """Return whether a round that has not settled needs as much traction as friction can carry."""
     wanted = final.problem.control.traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
 
 
-def _too_thin(nip: Nip, final: Round) -> str:
+def _too_thin(nip: Nip, final: MeshSolution) -> str:
     """Return a sentence on a covering too thin and too incompressible for the mesh; "" if none."""
     half = 0.5 * final.figures.nip_width
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):

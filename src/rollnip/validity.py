@@ -19,7 +19,7 @@ from rollnip.model import FINITE, RINGS, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Layer, Roller, Side
-from rollnip.rolling import Round, surface_strain_in_nip
+from rollnip.rolling import MeshSolution, surface_strain_in_nip
 from rollnip.volume import volume_reservations
 
 NIP_STRAIN = 0.15
@@ -70,7 +70,7 @@ class StrainSizes:
     skin: float
 
     @classmethod
-    def of(cls, nip: Nip, model: Model, final: Round) -> StrainSizes:
+    def of(cls, nip: Nip, model: Model, final: MeshSolution) -> StrainSizes:
         """Return the sizes of the strains in a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
         if model.geometry == "finite":  # strain to all orders: nothing is left out
@@ -79,7 +79,7 @@ class StrainSizes:
 
 
 def validity_reservations(
-    nip: Nip, model: Model, final: Round, strains: StrainSizes
+    nip: Nip, model: Model, final: MeshSolution, strains: StrainSizes
 ) -> tuple[Reservation, ...]:
     """Return the reservations on a solution: what exceeds its limit, and what that costs."""
     rollers = _rollers(nip)
@@ -103,7 +103,7 @@ def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:
     return ("upper", nip.upper), ("lower", nip.lower)
 
 
-def _nip_strain(nip: Nip, final: Round) -> Reservation | None:
+def _nip_strain(nip: Nip, final: MeshSolution) -> Reservation | None:
     return pressed_in(nip, final.state.approach)
 
 
@@ -146,7 +146,7 @@ def _thickness_ratio(side: Side, roller: Roller, model: Model) -> Reservation | 
     return Reservation(kind, sentence, figures, side, excess=ratio / limit)
 
 
-def _contact_angle(nip: Nip, final: Round) -> Reservation | None:
+def _contact_angle(nip: Nip, final: MeshSolution) -> Reservation | None:
     radius = min(nip.upper.radius, nip.lower.radius)
     angle = 0.5 * final.figures.nip_width / radius
     if angle <= CONTACT_ANGLE:
@@ -173,7 +173,7 @@ def _surface_strain(largest: float) -> Reservation | None:
     )
 
 
-def second_share(nip: Nip, final: Round) -> float:
+def second_share(nip: Nip, final: MeshSolution) -> float:
     """Return the largest second-order indentation in the contact over the approach.
 
     With a half-space core, where the approach is infinite, the depth a^2/(2 R) of the undeformed
@@ -209,7 +209,7 @@ def _second_order(share: float) -> Reservation | None:
     )
 
 
-def _skin_stretch(nip: Nip, final: Round) -> float:
+def _skin_stretch(nip: Nip, final: MeshSolution) -> float:
     """Return the creepage that stiff top layers may add by stretch of third order.
 
     A stiff top layer that rotates by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
@@ -294,7 +294,7 @@ def _flat_half_space(side: Side, roller: Roller, model: Model) -> Reservation | 
     )
 
 
-def _thin_top_layer(side: Side, roller: Roller, final: Round) -> Reservation | None:
+def _thin_top_layer(side: Side, roller: Roller, final: MeshSolution) -> Reservation | None:
     if not roller.layers:
         return None
     largest = float(np.max(np.diff(final.nodes[4:-4]), initial=0.0))
@@ -311,7 +311,9 @@ def _thin_top_layer(side: Side, roller: Roller, final: Round) -> Reservation | N
     )
 
 
-def _materials(side: Side, roller: Roller, nip: Nip, final: Round) -> Iterator[Reservation | None]:
+def _materials(
+    side: Side, roller: Roller, nip: Nip, final: MeshSolution
+) -> Iterator[Reservation | None]:
     for number, material in enumerate(roller.materials, start=1):
         if isinstance(material, LossFactor):
             yield Reservation(
@@ -353,7 +355,7 @@ def energies_left_out(side: Side, roller: Roller) -> list[Reservation]:
     ]
 
 
-def _dwell_time(nip: Nip, final: Round) -> float:
+def _dwell_time(nip: Nip, final: MeshSolution) -> float:
     return final.figures.nip_width / (nip.speed or inf)
 
 

@@ -10,7 +10,7 @@ from math import inf, isnan
 
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling import Round, model_shares, relative_claims
+from rollnip.rolling import MeshSolution, model_shares, relative_claims
 from rollnip.rolling.changes import ROUNDING
 
 FINEST_OF_FINITE = Model().tolerance
@@ -34,7 +34,7 @@ WORDS: Mapping[str, str] = {
 """Words for the figures to which the tolerance applies."""
 
 
-def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+def verdict(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence about them.
 
     A claimed error has a share from the mesh and a share from the model. In a geometry of finite

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Roller, Side
-from rollnip.rolling import Round
+from rollnip.rolling import MeshSolution
 
 BULK_MODULUS = 2000.0
 """Bulk modulus of rubber [MPa], rounded. Measured values differ from one rubber to another. For
@@ -30,7 +30,7 @@ reservation.
 
 
 def volume_reservations(
-    side: Side, roller: Roller, nip: Nip, final: Round
+    side: Side, roller: Roller, nip: Nip, final: MeshSolution
 ) -> Iterator[Reservation]:
     """Yield a reservation on each layer whose change of volume is not that of rubber.
 

@@ -120,7 +120,7 @@ def test_contact_in_pieces_has_the_edges_of_its_closed_form():
     layout = Layout(np.array([-1.05, -0.63, 0.57, 1.03]), states)
     for _ in range(8):
         problem, state = two_pieces(layout, [12, 8, 12], inner, outer)
-        layout = layout.moved(problem.x, state, 0.0)
+        layout = layout.with_proposed_ends(problem.x, state, 0.0)
     np.testing.assert_allclose(layout.breaks, [-outer, -inner, inner, outer], atol=1e-4)
     product = (outer**2 - problem.x**2) * (problem.x**2 - inner**2)
     exact = np.abs(problem.x) * np.sqrt(np.maximum(product, 0.0)) / np.pi
@@ -145,19 +145,24 @@ def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
     ]
     places = [[0.0, 2.0, 3.0, 4.0], [0.0, 2.0, 3.0, 4.0], [0.0, 1.0, 2.5, 4.0], [0.0, 1.0, 2.0]]
     assert [one.breaks.tolist() for one in fewer] == places
-    again = whole.parted(1.2, 1.4)
+    again = whole.with_gap(1.2, 1.4)
     assert again.states.tolist() == [PLUS, STICK, free, STICK, free, MINUS]
     assert again.without(2, keeps_stick=True).breaks.tolist() == whole.breaks.tolist()
-    assert whole.parted(0.5, 1.5) is None
+    assert whole.with_gap(0.5, 1.5) is None
 
 
 def test_zones_shorter_than_what_counts_are_left_out_shortest_first():
     breaks, states = [0.0, 0.01, 0.03, 5.0, 5.05, 5.055, 9.0], [PLUS, STICK, PLUS, STICK, MINUS]
     whole = Layout(np.array(breaks), np.array([*states, STICK], dtype=np.int8))
-    same = whole.of_length(0.004, keeps_stick=True)
+    same = whole.without_short_zones(0.004, keeps_stick=True)
     assert same.breaks.tolist() == breaks
-    assert whole.of_length(0.02, keeps_stick=True).breaks.tolist() == [0.0, 0.03, 5.0, 9.0]
-    fewer = whole.of_length(0.1, keeps_stick=True)
+    assert whole.without_short_zones(0.02, keeps_stick=True).breaks.tolist() == [
+        0.0,
+        0.03,
+        5.0,
+        9.0,
+    ]
+    fewer = whole.without_short_zones(0.1, keeps_stick=True)
     assert fewer.states.tolist() == [PLUS, STICK]
     assert fewer.breaks.tolist() == [0.0, 5.0, 9.0]
 
@@ -169,7 +174,7 @@ def test_edges_are_found_again(off):
     distances = []
     for _ in range(5):
         problem, _, state = hertz(layout.breaks, 16)
-        layout = layout.moved(problem.x, state, 0.0)
+        layout = layout.with_proposed_ends(problem.x, state, 0.0)
         distances.append(np.max(np.abs(np.abs(layout.breaks) - 1.0)))
     assert distances[-1] < 1e-4
     assert distances[0] < 1.5 * max(map(abs, off)) ** 2 + 3e-4
@@ -197,7 +202,7 @@ def test_transition_of_carter_is_found_again(off, sign):
             layout.breaks, [8, 14], load=HERTZ_LOAD, traction=traction, friction=1.0
         )
         state = GivenStates().solve(problem, layout.states_on(problem.x))
-        layout = layout.moved(problem.x, state, 1.0)
+        layout = layout.with_proposed_ends(problem.x, state, 1.0)
     assert layout.breaks[1] == pytest.approx(1.0 - 2.0 * b, abs=1e-3)
     # the creep of rigid rolling: xi = mu (1 - b) a/R of two half-planes, in these units mu (1 - b)
     assert abs(state.creepage) == pytest.approx(1.0 - b, rel=2e-3)
@@ -215,7 +220,7 @@ def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
     shear = np.where(x < 1.0, 0.5 * pressure - smooth, 0.5 * pressure)
     layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    moved = layout.moved(x, state, 0.5)
+    moved = layout.with_proposed_ends(x, state, 0.5)
     assert moved.breaks[1] - 1.0 == pytest.approx(short, rel=0.05)
 
 
@@ -237,7 +242,7 @@ def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
     shear[sticks] = (friction * (from_trailing - to_leading))[sticks]
     layout = Layout(breaks, np.array([MINUS, STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    moved = layout.moved(x, state, friction)
+    moved = layout.with_proposed_ends(x, state, friction)
     np.testing.assert_allclose(moved.breaks[1:-1], breaks[1:-1], atol=1e-9)
 
 
@@ -281,7 +286,7 @@ def test_zones_are_found_from_states_of_nodes():
     start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
     found = CoupledActiveSet(wanted=next_slip).solve(problem, start)
     np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
-    layout = Layout.found(problem.x, found, 1.0, (-1.0, 1.0))
+    layout = Layout.from_nodes(problem.x, found, 1.0, (-1.0, 1.0))
     assert layout is not None
     assert list(layout.states) == [PLUS, STICK]
     assert layout.breaks[[0, -1]] == pytest.approx([-1.0, 1.0])
@@ -328,7 +333,7 @@ def test_ends_on_their_way_never_cross():
     """An end asked for beyond its zone, or nowhere, moves part of the way."""
     layout = Layout(np.array([0.0, 1.0, 3.0]), np.array([PLUS, STICK], dtype=np.int8))
     for asked in ([0.0, -5.0, 3.0], [0.0, 9.0, 3.0], [0.0, np.inf, 3.0], [4.0, 2.0, -1.0]):
-        moved = layout.towards(Layout(np.array(asked), layout.states))
+        moved = layout.stepped_towards(Layout(np.array(asked), layout.states))
         assert moved.is_proper
         assert np.all(np.diff(moved.breaks) <= 2.0 * np.diff(layout.breaks) + 1e-12)
         wanted = np.sign(np.array(asked) - layout.breaks)
@@ -413,4 +418,4 @@ def test_a_smooth_end_is_found_further_inside_where_the_first_nodes_tell_none():
     shear = np.where(x < 1.0, 0.5 * pressure - slack, 0.5 * pressure)
     layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
-    assert layout.moved(x, state, 0.5).breaks[1] - 1.0 == pytest.approx(short, rel=0.2)
+    assert layout.with_proposed_ends(x, state, 0.5).breaks[1] - 1.0 == pytest.approx(short, rel=0.2)

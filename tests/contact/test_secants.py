@@ -19,7 +19,7 @@ def found(layout, asked_at, meshes, singular_at=lambda breaks: None):
     for _ in range(meshes):
         here = places[-1]
         asked = Layout(here.breaks + asked_at(here.breaks), here.states)
-        places.append(ends.next(here, asked, singular_at(here.breaks), is_still=True))
+        places.append(ends.next_layout(here, asked, singular_at(here.breaks), only_ends_move=True))
     return places
 
 
@@ -75,12 +75,12 @@ def test_an_end_without_a_proposed_place_goes_as_far_as_ends_are_misplaced_then_
     steps = []
     for _ in range(3):
         asked = Layout(layout.breaks + np.array([0.0, np.inf, 0.0, 0.0]), THREE)
-        there = ends.next(layout, asked, None, is_still=True)
+        there = ends.next_layout(layout, asked, None, only_ends_move=True)
         steps.append(float((there.breaks - layout.breaks)[1]))
         layout = there
     np.testing.assert_allclose(steps, [0.01, 0.02, 0.04])
     asked = Layout(layout.breaks - np.array([0.0, 0.03, 0.0, 0.0]), THREE)
-    assert abs(ends.next(layout, asked, None, is_still=True).breaks[1] + 0.46) < 1e-12
+    assert abs(ends.next_layout(layout, asked, None, only_ends_move=True).breaks[1] + 0.46) < 1e-12
 
 
 def test_a_zone_goes_after_two_solutions_that_leave_nothing_of_it():

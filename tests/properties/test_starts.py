@@ -10,7 +10,7 @@ from claims import ROUNDING, scales
 from population import numbers, random_case
 
 import rollnip as rn
-from rollnip.rolling import excess, half_width_guess, pair_kernels, refine
+from rollnip.rolling import error_ratio, half_width_guess, pair_kernels, refine
 from rollnip.rolling.refinement import SIZES, by_nodes, finer_by_nodes
 
 TOLERANCE = 1e-3
@@ -22,7 +22,9 @@ STARTS = {"narrow": (0.6, SIZES), "wide": (1.6, SIZES), "finer nodes": (1.0, SIZ
 
 def stands(nip, final):
     """Whether solve would call it converged."""
-    return final.settled and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
+    return (
+        final.settled and final.residual <= TOLERANCE and error_ratio(nip, final, TOLERANCE) <= 1.0
+    )
 
 
 def refined(case, kernels, start, sizes):

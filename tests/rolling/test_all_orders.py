@@ -7,7 +7,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.finite import FiniteResponse
-from rollnip.rolling import held, placing
+from rollnip.rolling import held, zone_meshes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -32,8 +32,8 @@ def counts(monkeypatch):
         found["meshes"] += bool(fine.elements)
         return original(nodes, kernels, fine)
 
-    original = placing.mesh_on
-    monkeypatch.setattr(placing, "mesh_on", mesh_on)
+    original = zone_meshes.mesh_on
+    monkeypatch.setattr(zone_meshes, "mesh_on", mesh_on)
     return found
 
 

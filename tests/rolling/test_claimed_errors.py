@@ -150,7 +150,7 @@ def test_a_given_creepage_leaves_the_traction_open_by_as_much_as_a_given_tractio
         # figure 4 with 0.26 mm: 0.56 to 0.6
         ("_SHARE_OF_RESIDUAL", 0.6),
         # 160 random nips against twice as many finite elements, decision 41
-        ("_FURTHER_SHARE", 3.15e-3),
+        ("_SECONDARY_SHARE", 3.15e-3),
         ("_SHARE_OF_PEAK_PLACE", 5.1e-3),
     ],
 )

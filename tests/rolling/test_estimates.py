@@ -8,14 +8,14 @@ import pytest
 import rollnip as rn
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
-    Size,
+    RefinementLevel,
     estimated_error,
     lag_within,
-    with_further_errors,
-    zone_excess,
+    with_secondary_errors,
+    zone_error_ratio,
 )
-from rollnip.rolling.further import further_sizes
-from rollnip.rolling.round import Figures, Further
+from rollnip.rolling.mesh_solution import Figures, SecondaryFigures
+from rollnip.rolling.secondary import secondary_sizes
 
 
 @pytest.fixture
@@ -26,9 +26,9 @@ def one(solved):
 
 
 def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
-    further = Further(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
+    secondary = SecondaryFigures(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
     return [
-        Size(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks), further)
+        RefinementLevel(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks), secondary)
         for n in counts
     ]
 
@@ -103,19 +103,20 @@ def test_edges_within_a_memory_change_all_figures_in_proportion(one):
     rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=6.0, relaxation_time=1e-4, poisson=0.5)
     lagging = rn.Roller(radius=nip.upper.radius, layers=[rn.Layer(2.0, rubber)])
     lagging = replace(nip, upper=lagging, speed=100.0)
-    further = Further(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
+    secondary = SecondaryFigures(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
     history = [
-        Size(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: further) for n in (20, 30)
+        RefinementLevel(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: secondary)
+        for n in (20, 30)
     ]
     at_once, later = (
-        with_further_errors(of, final, history).further_error for of in (nip, lagging)
+        with_secondary_errors(of, final, history).secondary_error for of in (nip, lagging)
     )
     edge = 0.5 * (later.contact_length - at_once.contact_length)
     edges = np.diff(final.mesh.inner)[[0, -1]]
     assert edge >= max(lag_within(float(h), lagging.upper, 100.0) for h in edges) > 0.0
     share = 2.0 * edge / final.figures.nip_width
     assert later.traction - at_once.traction == pytest.approx(0.53 * share)
-    work = further_sizes(lagging, final, further)[3]
+    work = secondary_sizes(lagging, final, secondary)[3]
     assert later.friction - at_once.friction == pytest.approx(share * work)
 
 
@@ -136,6 +137,8 @@ def test_zones_count_by_their_own_length_or_a_twentieth_of_the_nip():
         ]
 
     # 1.5/(2^2 - 1) of the change, over three tolerances of 0.1, a twentieth of 2
-    assert zone_excess(history(-0.898), 1e-3) == pytest.approx(0.5 * 0.002 / 0.000306, rel=1e-6)
-    assert zone_excess(history(-0.98), 1e-3) == pytest.approx(0.5 * 0.08 / 0.0003)
-    assert zone_excess(history(-0.9)[:1], 1e-3) == 0.0
+    assert zone_error_ratio(history(-0.898), 1e-3) == pytest.approx(
+        0.5 * 0.002 / 0.000306, rel=1e-6
+    )
+    assert zone_error_ratio(history(-0.98), 1e-3) == pytest.approx(0.5 * 0.08 / 0.0003)
+    assert zone_error_ratio(history(-0.9)[:1], 1e-3) == 0.0

@@ -30,27 +30,27 @@ def placing(cases):
 def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
     """However little it moved on the size before: that was the one of a coarser mesh."""
     search, start = placing
-    coarse = search.placed(start, 26, known=False)
+    coarse = search.solve(start, 26, zones_known=False)
     still = replace(coarse, change=1e-3, expected=1e-6)
-    fine = search.placed(still, 40, known=True)
+    fine = search.solve(still, 40, zones_known=True)
     assert fine.before.mesh.kernels.held is not coarse.before.mesh.kernels.held
     assert fine.change != still.change
 
 
 def test_a_second_order_that_did_not_move_at_all_is_still(placing):
     search, start = placing
-    stand = search.placed(start, 26, known=False)
-    again = search._renewed(replace(stand, change=0.0, expected=inf))
+    stand = search.solve(start, 26, zones_known=False)
+    again = search.solver.renewed(replace(stand, change=0.0, expected=inf))
     assert again.change > 0.0
     assert again.expected == pytest.approx(9.0 * again.change)
 
 
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
     search, start = placing
-    stand = search.placed(start, 26, known=False)
-    once = search._renewed(replace(stand, change=inf, expected=inf))
+    stand = search.solve(start, 26, zones_known=False)
+    once = search.solver.renewed(replace(stand, change=inf, expected=inf))
     assert once.expected == inf  # one change tells nothing
-    twice = search._renewed(replace(stand, change=4.0 * once.change, expected=inf))
+    twice = search.solver.renewed(replace(stand, change=4.0 * once.change, expected=inf))
     assert twice.expected == pytest.approx(once.change / 3.0)
 
 

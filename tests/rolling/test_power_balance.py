@@ -9,7 +9,7 @@ from moments import moments, power_by_moments
 import rollnip as rn
 from rollnip.paper import configuration
 from rollnip.rolling import powers
-from rollnip.rolling.claimed_errors import further_claims
+from rollnip.rolling.claimed_errors import secondary_claims
 from rollnip.rolling.power_balance import slip_losses
 
 GEOMETRIES = ("linear", "corrected", "curved", "second")
@@ -215,7 +215,7 @@ def test_losses_of_zones_of_slip():
 def test_the_error_of_a_loss_counts_reversed_slip():
     solution = solved(VISCOUS["free"], "linear")
     spent = replace(spent_by(solution), reversed_slip=1.0)
-    claimed = further_claims(solution.nip, "linear", solution.final, spent)
+    claimed = secondary_claims(solution.nip, "linear", solution.final, spent)
     assert claimed["dissipation_friction"] == solution.nip.speed
 
 

@@ -91,7 +91,7 @@ def test_a_peak_at_a_misplaced_edge_is_no_peak(nip, friction):
     placing = Placing(nip, solution.model, solution.kernels)
     # Rounding decides whether other zones are called for: a node of a short one hardly sticks.
     shape = np.array(right.mesh.fine.elements), right.mesh.fine.crowding
-    found, _ = placing._solved_on(narrow, shape)
+    found, _ = placing.solver.solve(narrow, shape)
     false = replace(found, error=right.error)
     pressure = false.state.pressure
     assert pressure[1] > pressure[2]

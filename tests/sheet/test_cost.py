@@ -8,7 +8,7 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.rolling import placing
+from rollnip.rolling import zone_meshes
 from rollnip.rolling.elements import AllOrders
 from rollnip.sheet import search
 
@@ -19,7 +19,10 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def counted(monkeypatch):
     """Meshes that are assembled, by their nodes: bare, and with a sheet."""
     meshes = {"bare": [], "sheet": []}
-    for module, name, kind in ((placing, "mesh_on", "bare"), (search, "sheet_mesh_on", "sheet")):
+    for module, name, kind in (
+        (zone_meshes, "mesh_on", "bare"),
+        (search, "sheet_mesh_on", "sheet"),
+    ):
         assemble = getattr(module, name)
 
         def count(nodes, *more, kind=kind, assemble=assemble):

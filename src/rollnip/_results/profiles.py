@@ -8,11 +8,11 @@ from rollnip.contact import ContactZone, State
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import Nip
-from rollnip.rolling import PairFields, PairKernels, Round, hoop_curvature
+from rollnip.rolling import MeshSolution, PairFields, PairKernels, hoop_curvature
 from rollnip.rolling.surfaces import Array
 
 
-def fine_points(final: Round) -> Array:
+def fine_points(final: MeshSolution) -> Array:
     """Return the nodes from edge to edge, and points to just over a nip width on either side."""
     is_cubic = final.mesh.fine.values is not None
     inside = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]
@@ -39,7 +39,7 @@ def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: flo
 
 
 def surface_strain(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution, *, side: str
 ) -> Array:
     """Return the strain of one surface at ``x``: du_x/dx, or in rings the stretch less 1."""
     upper = side == "upper"

@@ -1,4 +1,4 @@
-"""Contact: which nodes touch, stick or slip, and where zones of them end."""
+"""The discrete contact problem: which nodes touch, stick or slip, and where the zones end."""
 
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states

@@ -5,10 +5,10 @@ The conditions of contact and of Coulomb's friction are a linear complementarity
     gap >= 0, p >= 0, gap p = 0;
     creep = a - b, a >= 0, b >= 0, a (mu p - q) = 0, b (mu p + q) = 0,
 
-on any number of interfaces. Each product gets a small positive value in place of 0, the same one
-for all, and Newton's method follows the solution while that value falls to zero (Mehrotra, SIAM J.
-Optim. 2 (1992) 575). No state of a node is guessed before the tractions are known, so no search can
-turn in a circle: some ten linear systems find all states, whatever their number.
+on any number of interfaces. Every product is set to the same small positive value instead of 0, and
+Newton's method follows the solution as that value goes to zero (Mehrotra, SIAM J. Optim. 2 (1992)
+575). Unlike an active set, the method never guesses the states of nodes, so it cannot cycle: it
+finds all states with about ten linear systems, however many nodes there are.
 """
 
 from __future__ import annotations
@@ -21,33 +21,35 @@ from scipy.linalg import lapack
 
 from rollnip.contact.problem import SLIP_MINUS, SLIP_PLUS, STICK, Array, Indices, Mask, States
 
-# What is left of the conditions, over their sizes: where the iteration ends at the latest, and
-# where it ends as soon as nothing is gained, as where a node is about to slip. There is no solution
-# where it has grown by the inverse of the second.
+# Stopping limits on the violation of the conditions, relative to their scales. Below the first the
+# iteration always stops; below the second it stops once a step brings no gain, as where a node is
+# on the point of slipping. A violation that has grown to the inverse of the second has diverged:
+# there is no solution.
 _SMALLEST, _SMALL = 1e-11, 1e-6
-_FIRST = 0.1  # gap and creep to begin with, over their sizes
-_SHORT_OF = 0.95  # of the step on which the first part of a condition would vanish
+_FIRST = 0.1  # initial gap and creep, relative to their scales
+_SHORT_OF = 0.95  # share taken of the longest step that keeps all factors positive
 _MOST_STEPS = 40
 
 
 @dataclass(frozen=True, slots=True)
 class Inequalities:
-    """Gaps and creeps that are linear in tractions and further unknowns, and where friction bounds.
+    """The complementarity problem: gaps and creeps linear in the unknowns, and friction bounds.
 
-    The rows of ``matrix`` times the unknowns plus ``right`` are the gap at the place of each
-    pressure, the creep at the place of each shear, and zero in all other rows. A creep is positive
-    where a positive shear would stop it (`ContactProblem`).
+    Unknowns are pressures, shears and others, such as the approach. ``matrix`` times the unknowns
+    plus ``right`` is the gap in the row of each pressure, the creep in the row of each shear, and
+    zero in all other rows. A creep is positive where a positive shear would stop it
+    (`ContactProblem`).
 
     Attributes
     ----------
     matrix : (m, m).
     right : (m,).
-    pressures : (k,) places of the pressures among the unknowns.
-    shears : (s,) places of the shears.
-    bounding : (s,) place of the pressure that bounds each shear.
-    frictions : (s,) coefficient of each shear, positive.
-    sizes : (m,) about how large the unknowns are; not used for shears.
-    scales : (m,) about how large gaps, creeps and the parts of the other rows are.
+    pressures : (k,) indices of the pressures among the unknowns.
+    shears : (s,) indices of the shears.
+    bounding : (s,) index of the pressure that bounds each shear.
+    frictions : (s,) friction coefficient of each shear, positive.
+    sizes : (m,) rough magnitudes of the unknowns; not used for shears.
+    scales : (m,) rough magnitudes of the gaps, of the creeps, and of the terms in the other rows.
     """
 
     matrix: Array
@@ -68,8 +70,8 @@ class Complementary:
     ----------
     unknowns : (m,).
     touches : (k,) whether the gap at each pressure is closed.
-    states : (s,) whether each shear sticks or slips.
-    steps : linear systems factorised.
+    states : (s,) stick or slip at each shear.
+    steps : number of linear systems factorised.
     """
 
     unknowns: Array
@@ -79,27 +81,27 @@ class Complementary:
 
 
 def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) -> Complementary:
-    """Return tractions that meet all conditions.
+    """Return unknowns that meet all conditions.
 
     Parameters
     ----------
-    problem : gaps, creeps and what bounds them.
-    start : (m,) unknowns to begin with, pressures positive and shears within their bounds.
-    enough : what may be left of the conditions, where no step gains any more.
+    problem : gaps, creeps and friction bounds.
+    start : (m,) initial unknowns, with positive pressures and shears within their bounds.
+    enough : largest acceptable violation of the conditions, once steps bring no further gain.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where there are none, or a system is singular.
+        where no solution is found, or a system is singular.
     """
-    iterate, best = _Iterate.of(problem, start), inf
-    diverged = max(iterate.left, 1.0) / _SMALL
+    iterate, best = _InteriorPoint.of(problem, start), inf
+    diverged = max(iterate.violation, 1.0) / _SMALL
     solution: Complementary | None = None
     for steps in range(_MOST_STEPS):
-        left = iterate.left
-        if left < min(best, enough):
-            best, solution = left, iterate.solution(steps)
-        if best < _SMALLEST or best < min(left, _SMALL) or not left < diverged:
+        violation = iterate.violation
+        if violation < min(best, enough):
+            best, solution = violation, iterate.solution(steps)
+        if best < _SMALLEST or best < min(violation, _SMALL) or not violation < diverged:
             break
         iterate.advance()
     if solution is None:
@@ -108,15 +110,15 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
 
 
 @dataclass(slots=True)
-class _Iterate:
-    """Tractions and the parts of their conditions, all over their sizes.
+class _InteriorPoint:
+    """One iterate of the interior-point method, in dimensionless form.
 
     Attributes
     ----------
-    problem : as it was given.
-    sizes : (m,) of the unknowns; a shear's is its friction times the size of its pressure.
-    matrix, right : over sizes and scales.
-    unknowns : (m,) over their sizes.
+    problem : the problem in its own units.
+    sizes : (m,) of the unknowns; that of a shear is its friction times the size of its pressure.
+    matrix, right : of the problem, divided by sizes and scales.
+    unknowns : (m,) divided by their sizes.
     creeps : (k + 2 s,) gaps, then a and b of all shears.
     """
 
@@ -128,8 +130,8 @@ class _Iterate:
     creeps: Array
 
     @classmethod
-    def of(cls, problem: Inequalities, start: Array) -> _Iterate:
-        """Begin, with equal gaps and creeps."""
+    def of(cls, problem: Inequalities, start: Array) -> _InteriorPoint:
+        """Return the first iterate, with all gaps and creeps equal."""
         sizes = problem.sizes.copy()
         sizes[problem.shears] = problem.frictions * sizes[problem.bounding]
         creeps = np.full(problem.pressures.size + 2 * problem.shears.size, _FIRST)
@@ -137,10 +139,10 @@ class _Iterate:
         return cls(problem, sizes, matrix, problem.right / problem.scales, start / sizes, creeps)
 
     @property
-    def left(self) -> float:
-        """Return what is left of the conditions: their mean product, or most of an equation.
+    def violation(self) -> float:
+        """Return the violation: the mean complementarity product, or the largest residual if more.
 
-        Infinite where rounding has taken all the room of a shear.
+        Infinite where rounding has brought a shear up to its bound.
         """
         room = self._room(self.unknowns)
         if not float(room.min()) > 0.0:
@@ -149,7 +151,7 @@ class _Iterate:
         return max(products, float(np.abs(self._residual()).max()))
 
     def advance(self) -> None:
-        """Take one step of Newton's method: predicted to zero, corrected, and kept inside."""
+        """Take one predictor-corrector step (Mehrotra), shortened to keep all factors positive."""
         room, creeps = self._room(self.unknowns), self.creeps
         residual, rates = self._residual(), creeps / room
         factors, pivots, info = lapack.dgetrf(self._jacobian(rates), overwrite_a=1)
@@ -157,7 +159,7 @@ class _Iterate:
             raise np.linalg.LinAlgError("Singular matrix")
 
         def direction(products: Array | float) -> tuple[Array, Array, Array]:
-            """Return steps of the unknowns, of the room that they leave, and of the creeps."""
+            """Return the steps of the unknowns, of the distances to their bounds, and of creeps."""
             wanted = products / room - creeps
             found, _ = lapack.dgetrs(factors, pivots, self._on_rows(wanted) - residual)
             opened = self._room(found)
@@ -166,8 +168,8 @@ class _Iterate:
         mean = float(room @ creeps) / creeps.size
         _, opened, slid = direction(0.0)
         step = _longest(room, opened, creeps, slid)
-        left = float((room + step * opened) @ (creeps + step * slid)) / creeps.size
-        found, opened_too, slid_too = direction(mean * (left / mean) ** 3 - opened * slid)
+        remaining = float((room + step * opened) @ (creeps + step * slid)) / creeps.size
+        found, opened_too, slid_too = direction(mean * (remaining / mean) ** 3 - opened * slid)
         step = _longest(room, opened_too, creeps, slid_too)
         step = step if step == 1.0 else _SHORT_OF * step
         self.unknowns = self.unknowns + step * found
@@ -176,7 +178,7 @@ class _Iterate:
             raise np.linalg.LinAlgError("no finite solution")
 
     def solution(self, steps: int) -> Complementary:
-        """Return tractions and states."""
+        """Return unknowns in their own units, and the states of nodes."""
         k, s = self.problem.pressures.size, self.problem.shears.size
         closed = self._room(self.unknowns) > self.creeps
         states = np.where(~closed[k : k + s], SLIP_PLUS, STICK)
@@ -185,16 +187,16 @@ class _Iterate:
         return Complementary(found, closed[:k], states.astype(np.int8), steps)
 
     def _room(self, unknowns: Array) -> Array:
-        """Return p, and mu p - q and mu p + q of all shears, over their sizes."""
+        """Return the distances to the bounds: p, then mu p - q and mu p + q of all shears."""
         bound, shear = unknowns[self.problem.bounding], unknowns[self.problem.shears]
         return np.concatenate([unknowns[self.problem.pressures], bound - shear, bound + shear])
 
     def _residual(self) -> Array:
-        """Return what tractions, gaps and creeps leave of the equations."""
+        """Return the residual of the linear equations."""
         return np.asarray(self.matrix @ self.unknowns + self.right - self._on_rows(self.creeps))
 
     def _on_rows(self, parts: Array) -> Array:
-        """Return gaps and creeps, of which the latter have two parts, on the rows of the matrix."""
+        """Return gaps and creeps a - b, placed in the rows of the matrix; 0 in other rows."""
         problem, out = self.problem, np.zeros(self.right.size)
         k, s = problem.pressures.size, problem.shears.size
         out[problem.pressures] = parts[:k]
@@ -202,7 +204,7 @@ class _Iterate:
         return out
 
     def _jacobian(self, rates: Array) -> Array:
-        """Return the matrix with what gaps and creeps yield when the room for them changes."""
+        """Return the Newton matrix, with gaps and creeps eliminated from the products."""
         problem, out = self.problem, self.matrix.copy()
         k, s = problem.pressures.size, problem.shears.size
         plus, minus = rates[k : k + s], rates[k + s :]
@@ -213,6 +215,6 @@ class _Iterate:
 
 
 def _longest(room: Array, opened: Array, creeps: Array, slid: Array) -> float:
-    """Return the share of a step, at most 1, on which nothing becomes negative."""
+    """Return the largest share of a step, at most 1, that makes no factor negative."""
     fastest = max(float(np.max(-opened / room)), float(np.max(-slid / creeps)))
     return 1.0 if fastest <= 1.0 else 1.0 / fastest

@@ -1,7 +1,7 @@
 """The coupled active set: pressure, shear, approach and creepage in one linear system.
 
-A semi-smooth Newton method. Every node has a state; the states make the contact conditions linear
-equations for all unknowns together; the solution tells which states were wrong.
+This is a semi-smooth Newton method. Given the state of every node, the contact conditions are
+linear equations for all unknowns together; the signs of their solution show which states are wrong.
 """
 
 from __future__ import annotations
@@ -33,28 +33,28 @@ _TINY = np.finfo(float).tiny
 def solve_states(
     problem: ContactProblem, states: States, *, steps: int = 1, settled: bool = False
 ) -> ContactState:
-    """Solve the linear system that given states make; no condition is checked.
+    """Return the solution with given states; no inequality is checked.
 
     ``steps`` and ``settled`` are copied into the solution.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where the states leave the system singular.
+        where the system for these states is singular.
     """
     return LinearSystem.of(problem, states).solved(problem, steps=steps, settled=settled)
 
 
 @dataclass(frozen=True, slots=True)
 class LinearSystem:
-    """The linear system that given states make of a contact problem, factorised.
+    """The factorised linear system of a contact problem with given states.
 
     Attributes
     ----------
-    problem, states : the problem and states that make the system.
-    contact, stick : numbers of the nodes in contact, and of those whose shear is unknown.
-    signs : (n,) of the shear of nodes that slip.
-    factors, pivots : of LAPACK's LU decomposition.
+    problem, states : what the system was built from.
+    contact, stick : indices of the nodes in contact, and of those whose shear is unknown.
+    signs : (n,) sign of the shear at nodes that slip, 0 elsewhere.
+    factors, pivots : LAPACK's LU decomposition.
     """
 
     problem: ContactProblem
@@ -67,12 +67,12 @@ class LinearSystem:
 
     @classmethod
     def of(cls, problem: ContactProblem, states: States) -> LinearSystem:
-        """Factorise the system for the given states, see `solve_states`."""
+        """Build and factorise the system; raises as `solve_states` does."""
         (contact,) = (states != FREE).nonzero()
         stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
         signs = shear_signs(states)
-        # LAPACK wants columns and the matrix is stored by rows, so its transpose is factorised in
-        # place. For such small systems SciPy's wrappers would cost more than LAPACK itself.
+        # LAPACK is column-major and the matrix row-major, so the transpose is factorised in place.
+        # For such small systems SciPy's wrappers would cost more than LAPACK itself.
         matrix = _matrix(problem, contact, stick, signs)
         factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
         if info != 0:
@@ -82,10 +82,10 @@ class LinearSystem:
     def solved(
         self, problem: ContactProblem, *, steps: int = 1, settled: bool = False
     ) -> ContactState:
-        """Solve that problem, or one like it, with the factorised system.
+        """Return the solution of ``problem``, which may differ from the factorised one.
 
-        The clearance, the lengths and offsets of the creep and the prescribed values may differ.
-        Which quantities are prescribed, the influence, weights and friction may not.
+        Its clearance, creep lengths and offsets, and prescribed values may differ; its influence,
+        weights, friction and choice of prescribed quantities must be the same.
         """
         unknowns = self._unknowns(problem)
         n_c, n_s = self.contact.size, self.stick.size
@@ -93,7 +93,7 @@ class LinearSystem:
         pressure[self.contact] = unknowns[:n_c]
         shear = problem.friction * self.signs * pressure
         shear[self.stick] = unknowns[n_c : n_c + n_s]
-        # The solution meets the prescribed values to rounding; the exact values are kept.
+        # The system meets the prescribed values only to rounding; the exact ones are kept.
         control = problem.control
         approach, creepage = control.approach, control.creepage
         if approach is None:
@@ -106,9 +106,9 @@ class LinearSystem:
         right = _right_side(problem, self.contact, self.stick)
         if problem.creep_length is self.problem.creep_length:
             return self._divided(right)
-        # The lengths are the column of the creepage, so other lengths change one column of the
-        # matrix (Sherman & Morrison). The divisor is the ratio of the determinants: where it is
-        # small, the other matrix has lost its digits, however it is factorised.
+        # The creep lengths are the column of the creepage, so new lengths are a rank-one update
+        # (Sherman & Morrison). The divisor is the ratio of the two determinants: where it is small,
+        # the updated matrix is ill-conditioned, however it is factorised.
         change = np.zeros(right.size)
         longer = problem.creep_length - self.problem.creep_length
         change[self.contact.size : -2] = longer[self.stick]
@@ -125,12 +125,12 @@ class LinearSystem:
 
 
 def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
-    """Return the matrix of gap in contact, creep in stick, and the two prescribed quantities."""
+    """Return the matrix: gaps in contact, creeps in stick, then the two prescribed quantities."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
     rows = np.concatenate([contact, n + stick])
     ratio = problem.friction * signs
     influence = problem.influence.take(rows, axis=0)
-    if stick.size < n_c:  # where nodes slip the shear comes with the pressure
+    if stick.size < n_c:  # at slipping nodes the shear follows from the pressure
         influence[:, :n] += influence[:, n:] * ratio
     matrix = np.zeros((size + 2, size + 2))
     matrix[:size, :size] = influence.take(rows, axis=1)
@@ -163,7 +163,10 @@ def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Ar
 
 
 def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """Return the states that follow from the signs of gap, pressure, creep and shear."""
+    """Return the states implied by a solution: by the signs of gap, pressure, creep and shear.
+
+    Violations up to ``rounding``, relative to the scale of each condition, change no state.
+    """
     states, pressure = solution.states, solution.pressure
     depth, drift = gap_and_creep(problem, solution)
     scale = np.abs(problem.clearance).max() + abs(solution.approach)
@@ -173,7 +176,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     if problem.friction == 0.0:
         return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
     out: States = kept.astype(np.int8)  # 1: STICK
-    _let_slip(out, kept, problem, solution, drift, rounding * largest)
+    _mark_slipping(out, kept, problem, solution, drift, rounding * largest)
     (new,) = (kept & ~in_contact).nonzero()
     if new.size:
         out[new] = _nearest_states(states, in_contact, new)
@@ -181,7 +184,10 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
 
 
 def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """Return the states by creep and shear; free nodes and those under tension keep theirs."""
+    """Return stick and slip implied by a solution, with the contact set held.
+
+    Free nodes and nodes under tension keep their states. ``rounding``: see `next_states`.
+    """
     states, pressure = solution.states, solution.pressure
     out = states.copy()
     if problem.friction == 0.0:
@@ -191,11 +197,11 @@ def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) 
     little = rounding * float(np.abs(pressure).max())
     kept: Mask = (states != FREE) & (pressure >= -little)
     out[kept] = STICK
-    _let_slip(out, kept, problem, solution, drift, little)
+    _mark_slipping(out, kept, problem, solution, drift, little)
     return out
 
 
-def _let_slip(
+def _mark_slipping(
     out: States,
     kept: Mask,
     problem: ContactProblem,
@@ -203,16 +209,16 @@ def _let_slip(
     drift: Array,
     little: float,
 ) -> None:
-    """Set the states of the nodes that slip, of those ``kept`` in contact.
+    """Mark in ``out`` the nodes that slip, among those ``kept`` in contact.
 
-    ``drift`` is the creep of each interval, ``little`` a pressure that counts as rounding.
+    ``drift`` is the creep of each interval, ``little`` a pressure below which all is rounding.
     """
-    # The shear that would bring the creep to zero if its own node were the only one to change. It
-    # tells a slipping node that should stick from one that should slip the other way.
+    # The shear that would bring the creep to zero if only this node's shear changed. It tells a
+    # slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
     sought = solution.shear - drift / own
     bound = problem.friction * np.maximum(solution.pressure, 0.0)
-    # Within rounding a node keeps its state.
+    # Hysteresis: within rounding of the bound a node keeps its state.
     slack, states = problem.friction * little, solution.states
     plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
     minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
@@ -221,10 +227,10 @@ def _let_slip(
 
 
 def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
-    """Return the states of the nodes in contact that are nearest to some new ones.
+    """Return a state for each node newly in contact: that of the nearest node already in contact.
 
-    A node that comes into contact beside slipping ones slips with them: held in stick it would
-    carry a shear out of all proportion and be thrown out again.
+    A node that comes into contact beside slipping nodes has to slip with them: in stick it would
+    carry an excessive shear and leave the contact again in the next step.
     """
     (touching,) = in_contact.nonzero()
     place = touching.searchsorted(new)
@@ -240,13 +246,13 @@ class CoupledActiveSet:
     Parameters
     ----------
     max_steps :
-        linear systems to solve at most.
+        largest number of linear systems to solve.
     rounding :
         conditions violated by less than this, relative to the largest gap, pressure or creep,
         count as met.
     wanted :
-        gives the states that follow from a solution: `next_states`, or `next_slip` on a contact
-        set that is held. There pressure may be negative and surfaces may overlap.
+        rule for the next states: `next_states`, or `next_slip` to hold the contact set. With the
+        set held, pressures may be negative and surfaces may overlap.
     """
 
     max_steps: int = 40
@@ -254,7 +260,10 @@ class CoupledActiveSet:
     wanted: Callable[[ContactProblem, ContactState, float], States] = next_states
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Iterate from ``states`` until they reproduce themselves, or ``max_steps``."""
+        """Iterate from ``states`` until a solution implies the states that it was solved with.
+
+        ``settled`` is false where that takes more than ``max_steps``.
+        """
         states = _ensure_solvable(problem, states)
         seen: set[bytes] = set()
         for step in range(1, self.max_steps + 1):
@@ -270,21 +279,25 @@ class CoupledActiveSet:
 
 
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:
-    """Keep one node in contact, and one in stick where the creepage is sought."""
+    """Return states with at least one contact node and, if the creepage is unknown, one in stick.
+
+    Without these the system is singular.
+    """
     states = states.copy()
     if not states.any():
         states[np.argmin(problem.clearance)] = STICK
     if problem.control.traction is not None and not (states == STICK).any():
-        # Material sticks first where it comes in: the leading edge.
+        # Material sticks first where it enters the contact: at the leading edge.
         states[np.flatnonzero(states != FREE)[-1]] = STICK
     return states
 
 
 def _gentler(states: States, wanted: States, solution: ContactState) -> States:
-    """Return a smaller change than the one that led back to states already seen.
+    """Return a smaller change of states, to break a cycle.
 
-    A sticking node under tension slips before it parts: beside an edge its tension may come from
-    a shear that it cannot carry. Where there is none, only the first node changes.
+    A sticking node under tension is made to slip rather than freed: beside an edge its tension may
+    come from a shear beyond the traction bound. Where there is no such node, only the first of the
+    nodes that call for another state changes.
     """
     out = states.copy()
     torn = (states == STICK) & (wanted == FREE)

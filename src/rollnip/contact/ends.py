@@ -1,4 +1,4 @@
-"""Where the end of a zone should be, from the tractions at the nodes beside it."""
+"""By how much the end of a zone is misplaced, from the tractions at the nodes beside it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import numpy as np
 
 from rollnip.contact.problem import Array, ContactState, State
 
-# Of the first three nodes beside the end of a zone of many cubic elements (see `subdivided`): the
-# change relative to a square root from there, for each first element that the zone is too wide.
-# Measured on a parabola pressed on a half-plane (tests).
+# Discrete form of the inverse square root that a misplaced end leaves: the change of a square-root
+# traction, relative to it, at the first three nodes inside a zone of many cubic elements
+# (`subdivided`), per first element by which the zone is too wide. Measured on a parabola pressed on
+# a half-plane (tests).
 RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 _Three = Sequence[float]
@@ -20,15 +21,16 @@ _Three = Sequence[float]
 def slip_beside(
     x: Array, state: ContactState, friction: float, edge: int, *, leads: bool
 ) -> tuple[float, State]:
-    """Return the length of the slip that stick up to an edge leaves out, and its state.
+    """Return the length of a slip zone missing between stick and an edge, and its state.
 
-    Slip that is short beside the elements leaves in mu p - |q| what an end of stick leaves that is
-    too far out by its length. All else that three nodes take for it falls with their distance: a
-    length is believed if nodes twice as far apart tell it to within itself, and else is 0.
+    Leaving out a slip zone much shorter than the elements changes mu p - |q| as misplacing the end
+    of stick outwards by its length does. Other effects that three nodes mistake for it depend on
+    the spacing of the nodes. So the length is accepted only if it agrees, to within itself, with
+    the length from nodes twice as far apart; otherwise it is 0.
 
     Parameters
     ----------
-    edge : number of its node in ``x``.
+    edge : index in ``x`` of the node at the edge.
     leads : whether it is the leading edge of its piece of the contact.
     """
     inwards = -1 if leads else 1
@@ -38,19 +40,20 @@ def slip_beside(
             beside = edge + inwards * apart * np.array([1, 2, 3])
             distance = np.abs(x[beside] - x[edge]).tolist()
             values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
-            lengths.append(-outwards(distance, values, smooth=leads))
+            lengths.append(-outward_move(distance, values, smooth=leads))
         near, far = lengths
         if abs(far - near) < near < inf:
             return near, slip
     return 0.0, State.STICK
 
 
-def outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
-    """Return how far outwards a zone's end should move, from values at three distances inwards.
+def outward_move(distance: _Three, values: _Three, *, smooth: bool) -> float:
+    """Return how far outwards the end of a zone should move, from values at three nodes inside it.
 
-    The values are fitted by s, s^3 and a third pattern, where s is the square root of the
-    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Where the values do
-    not rise inwards as they should, the end is infinitely far off, on the side that they tell.
+    The values are fitted by s, s^3 and a third function, s being the square root of the distance
+    from the end: the inverse square root of a misplaced end (`RESPONSE`), or s^5 at a smooth end.
+    Where the fit does not rise inwards as it should, the result is infinite; its sign still tells
+    which way to move.
     """
     first = (1.0, 1.0, 1.0)
     third = [d * d for d in distance] if smooth else RESPONSE

@@ -1,4 +1,4 @@
-"""Contact intervals and stick/slip zones of a discrete solution, to a fraction of an element."""
+"""Contact intervals and stick and slip zones of a nodal solution, located within the elements."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rollnip.contact.problem import FREE, STICK, Array, ContactState, Mask, Stat
 
 @dataclass(frozen=True, slots=True)
 class ContactZone:
-    """A piece of the contact in one state.
+    """An interval of the contact in one state.
 
     Attributes
     ----------
@@ -25,12 +25,12 @@ class ContactZone:
 
 
 def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[ContactZone, ...]:
-    """Return zones, trailing edge first; without friction each interval is one STICK zone.
+    """Return the zones, trailing edge first; without friction each interval is one STICK zone.
 
-    Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
-    square root of the distance to the trailing end of a stick zone, where stick turns to slip, so
-    their squares are extrapolated linearly. At its leading end slip turns to stick, nothing is
-    singular and mu p - |q| goes as the power 3/2.
+    Ends are found by extrapolating a power of the tractions that is linear in the distance. At an
+    edge the pressure, and at the trailing end of a stick zone mu p - |q|, vanish as a square root:
+    their squares are extrapolated. At the leading end of a stick zone nothing is singular and
+    mu p - |q| vanishes as the power 3/2.
     """
     states = state.states
     states = np.minimum(states, STICK) if friction == 0.0 else _without_slivers(states)
@@ -43,7 +43,7 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Conta
 
 
 def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, float], ...]:
-    """Join neighbouring zones to contact intervals (trailing, leading) [mm]."""
+    """Return the contact intervals (trailing, leading) that adjoining zones make up [mm]."""
     intervals: list[tuple[float, float]] = []
     for zone in zones:
         if intervals and zone.start <= intervals[-1][1]:
@@ -68,7 +68,7 @@ def _split(
     interval: tuple[int, int],
     edges: tuple[float, float],
 ) -> list[ContactZone]:
-    """Cut one contact interval at its changes of state."""
+    """Return the zones of one contact interval, cut where the state changes."""
     first, last = interval
     slack = friction * state.pressure - np.abs(state.shear)
     zones: list[ContactZone] = []
@@ -83,10 +83,10 @@ def _split(
 
 
 def _without_slivers(states: States) -> States:
-    """Turn a single slipping node beside a sticking one, with no slip beside it, into stick.
+    """Return states in which a lone slipping node beside a sticking one sticks, too.
 
-    At an edge the pressure of the last node is as large as its error, and whether that node
-    alone sticks or slips says nothing about the contact.
+    At an edge the pressure at the last node is no larger than its error, so the state of that node
+    alone is no evidence of slip.
     """
     padded = np.zeros(states.size + 2, dtype=np.int8)  # free beyond both ends
     padded[1:-1] = states
@@ -98,9 +98,9 @@ def _without_slivers(states: States) -> States:
 
 
 def transition(x: Array, slack: Array, states: States, i: int) -> float:
-    """Return the place between nodes i and i + 1 of a change of state; slack is mu p - |q|.
+    """Return the place of a change of state between nodes i and i + 1; slack is mu p - |q|.
 
-    To the power that `contact_zones` names it is linear in the distance from that place.
+    It is extrapolated as in `contact_zones`.
     """
     slack = np.maximum(slack, 0.0)
     if states[i + 1] == STICK:
@@ -111,10 +111,10 @@ def transition(x: Array, slack: Array, states: States, i: int) -> float:
 
 
 def _crossing(x: Array, values: Array, i: int, step: int) -> float:
-    """Return the place where values, extrapolated from nodes i - step and i, vanish [mm].
+    """Return where values extrapolated linearly from nodes i - step and i reach zero [mm].
 
-    It lies between node i and the place of node i + step, and is their midpoint where no zero can
-    be extrapolated.
+    The result is kept between nodes i and i + step; it is their midpoint where the values do not
+    fall towards node i.
     """
     beyond = i + step
     limit = x[beyond] if 0 <= beyond < x.size else x[i] + step * abs(x[i] - x[i - step])

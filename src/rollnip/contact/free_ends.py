@@ -1,14 +1,13 @@
-"""Zones with given states and free ends: where the ends should be.
+"""The free boundary: zones with given states, and where a solution puts their ends.
 
-Contact may be in pieces. Between two of them is a free zone: no traction acts there, and both of
-its ends are edges like the outer ones, where the pressure goes to zero as a square root.
+The contact may be in several pieces. Between two of them lies a free zone: no traction acts there,
+and both of its ends are edges like the outer ones, at which the pressure vanishes as a square root.
 
-A zone that is too wide by delta leaves, to first order, delta/2 times an inverse square root in
-the tractions beside its end; one that is too narrow leaves the opposite. On nodes at cosine places
-that pattern is the same for every zone, in units of the first element: at short distance every
-surface responds as a half-plane does. So the first nodes tell the error of an end. It is Newton's
-method with the derivative known beforehand; misplaced by a whole element, an end is found again
-to a hundredth of one.
+A zone that is too wide by delta has, to first order, delta/2 times an inverse square root in the
+tractions beside its end; one that is too narrow has the opposite. At short distances every surface
+responds as a half-plane does. So on cosine nodes that pattern is the same for every zone, in units
+of the first element, and the first nodes tell the error of an end. This is Newton's method with a
+derivative known beforehand: from an error of a whole element, one step leaves a hundredth of one.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from rollnip.contact.ends import RESPONSE, outwards, slip_beside
+from rollnip.contact.ends import RESPONSE, outward_move, slip_beside
 from rollnip.contact.features import ContactZone, transition
 from rollnip.contact.problem import (
     FREE,
@@ -34,14 +33,17 @@ from rollnip.contact.problem import (
 )
 
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
-# Length of stick put between slip both ways, on either side, over the shorter zone of slip.
+# Stick put between slip both ways takes this share of the shorter slip zone from each of the two.
 _STICK_BETWEEN = 0.1
-_LONGEST_MOVE = 0.4  # of an end into a zone, over its length
+_LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The zones from the trailing to the leading edge; free ones lie between pieces of contact.
+    """A sequence of adjoining zones from the trailing to the leading edge of the contact.
+
+    Free zones lie between pieces of the contact. The ends of zones are called breaks; a break is
+    an edge where one of its sides is free, otherwise a transition.
 
     Attributes
     ----------
@@ -54,10 +56,10 @@ class Layout:
 
     @classmethod
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
-        """Return the layout of zones, with free ones between those that do not touch.
+        """Return the layout of given zones, with free zones in the gaps between them.
 
-        Between slip one way and the other the surfaces stick: a short zone is put there. Return
-        None where neighbours are alike, or a zone has no length.
+        A short stick zone is put between two slip zones of opposite sign, where the surfaces must
+        stick. Return None where neighbours have the same state, or a zone has no length.
         """
         zones = _with_stick_between(zones)
         if not zones:
@@ -74,16 +76,17 @@ class Layout:
         return layout if not alike and layout.is_proper else None
 
     @classmethod
-    def found(
+    def from_nodes(
         cls,
         x: Array,
         state: ContactState,
         friction: float,
         *pieces: tuple[float, float],
     ) -> Layout | None:
-        """Return the layout of the states of nodes, the edges of each piece known; None as above.
+        """Return the layout of a nodal solution, given the edges of each piece of the contact.
 
-        Beyond the edges the pressure may be negative, and sticking nodes there do not count.
+        Only nodes within the pieces count; beyond them pressures may be negative. Return None as
+        `of` does, or where a piece has no node in contact.
         """
         slack = friction * state.pressure - np.abs(state.shear)
         zones: list[ContactZone] = []
@@ -99,15 +102,15 @@ class Layout:
         return cls.of(tuple(zones))
 
     @classmethod
-    def around(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
-        """Return the layout of zones and of the free surfaces between and beside them.
+    def with_free_surfaces(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
+        """Return the layout of given zones with the free surface between and beside them.
 
         Zones without a length are left out.
 
         Parameters
         ----------
-        zones : with some length in all.
-        room : length of the free surface beyond either edge [mm].
+        zones : contact zones; the contact as a whole must have a length.
+        room : length of the free surface to include beyond either edge [mm].
         """
         start, stop = zones[0].start, zones[-1].stop
         least = _ROUNDING * (stop - start)
@@ -124,7 +127,7 @@ class Layout:
 
     @classmethod
     def sticking(cls, half_width: float) -> Layout:
-        """Return a single zone of stick of some half-width [mm]."""
+        """Return a single stick zone of given half-width about x = 0 [mm]."""
         return cls(np.array([-half_width, half_width]), np.array([STICK], dtype=np.int8))
 
     @property
@@ -151,7 +154,7 @@ class Layout:
 
     @property
     def key(self) -> bytes:
-        """Return what layouts of like zones have in common: the states in their order."""
+        """Return a key that layouts share if they have the same states in the same order."""
         return self.states.tobytes()
 
     def is_like(self, other: Layout) -> bool:
@@ -159,20 +162,19 @@ class Layout:
         return self.key == other.key
 
     def distance(self, other: Layout) -> float:
-        """Return the largest distance of the edges of two like layouts, over the width.
+        """Return the largest distance between breaks of two like layouts, over the width.
 
-        The distance of transitions counts a tenth, for figures of the nip depend on them only to
-        second order.
+        Transitions count a tenth, as figures of the nip depend on them only to second order.
         """
         moves = np.abs(self.breaks - other.breaks)
         moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
-    def towards(self, proposed: Layout) -> Layout:
-        """Return this layout with its breaks moved towards proposed ones, without crossing.
+    def stepped_towards(self, proposed: Layout) -> Layout:
+        """Return this layout with its breaks moved towards proposed places, in limited steps.
 
-        No zone becomes more than twice as long, and no break goes further than `_LONGEST_MOVE` of
-        the zone that it moves into.
+        A break moves by at most `_LONGEST_MOVE` of the zone that it shortens, so that breaks do not
+        cross, and by at most the length of the zone that it extends.
         """
         lengths = np.diff(self.breaks)
         behind = np.concatenate([[self.width], lengths])
@@ -183,10 +185,11 @@ class Layout:
         return Layout(self.breaks + moves, self.states)
 
     def vanishing(self, proposed: Layout) -> Mask:
-        """Return which zones would have no length left with the proposed breaks, (m,).
+        """Return which zones would have no length with the proposed breaks, (m,).
 
-        A break with no proposed place says that its zone goes on, but the tractions of that zone
-        see no further than it is long: a longer zone beside it does not vanish.
+        A break whose proposed place is infinite means only that its zone extends further. Within
+        the zone the tractions show no more than about its own length, so a longer neighbour does
+        not count as vanishing.
         """
         lengths, breaks = np.diff(self.breaks), proposed.breaks.copy()
         behind, ahead = np.append(np.inf, lengths), np.append(lengths, np.inf)
@@ -196,10 +199,12 @@ class Layout:
             return np.asarray(~(np.diff(breaks) > 0.0))
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
-        """Return the layout without one zone; None where slip both ways would be side by side.
+        """Return the layout without zone ``number``, which its neighbours take over.
 
-        What is beside an edge goes with its other end, and alike neighbours become one.
-        ``keeps_stick``: whether one zone of stick must be left.
+        Equal neighbours become one zone. Beside an edge, the neighbour on the other side extends to
+        the edge. A free zone beside stick is closed halfway. Return None if it is the only zone, if
+        slip in opposite directions would adjoin, or if no stick would be left where
+        ``keeps_stick`` requires some.
         """
         breaks = [-inf, *self.breaks.tolist(), inf]
         states = [int(FREE), *self.states.tolist(), int(FREE)]
@@ -219,10 +224,10 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
-    def of_length(self, least: float, *, keeps_stick: bool) -> Layout:
-        """Return the layout without zones shorter than a length [mm], the shortest first.
+    def without_short_zones(self, least: float, *, keeps_stick: bool) -> Layout:
+        """Return the layout without zones shorter than ``least`` [mm], removing the shortest first.
 
-        It ends at a zone that cannot be left out, see `without`.
+        It stops at the first zone that cannot be removed, see `without`.
         """
         layout = self
         while np.min(np.diff(layout.breaks)) < least:
@@ -232,8 +237,11 @@ class Layout:
             layout = fewer
         return layout
 
-    def parted(self, start: float, stop: float) -> Layout | None:
-        """Return the layout with a free zone between two places [mm]; None unless in one zone."""
+    def with_gap(self, start: float, stop: float) -> Layout | None:
+        """Return the layout with a free zone from ``start`` to ``stop`` [mm].
+
+        Return None unless both lie in the same zone.
+        """
         number = int(np.searchsorted(self.breaks, start)) - 1
         if not (self.breaks[number] < start < stop < self.breaks[number + 1]):
             return None
@@ -249,11 +257,14 @@ class Layout:
         return tuple(zone for zone in zones if zone.state != FREE)
 
     def ends(self, x: Array) -> Indices:
-        """Return the indices of the nodes at the breaks."""
+        """Return the indices of the nodes at the breaks, (m + 1,)."""
         return np.searchsorted(x, self.breaks - 1e-12 * self.width)
 
     def states_on(self, x: Array) -> States:
-        """Return the state of each node; at a break it is one with known shear: FREE or slip."""
+        """Return the state of each node; a node at a break is FREE or slips, so its shear is known.
+
+        At edges it is FREE, at transitions it has the state of the slip zone.
+        """
         ends = self.ends(x)
         out = np.full(x.size, FREE, dtype=np.int8)
         for start, stop, state in zip(ends[:-1], ends[1:], self.states, strict=True):
@@ -262,12 +273,12 @@ class Layout:
         out[ends[self.is_edge]] = FREE
         return out
 
-    def moved(self, x: Array, state: ContactState, friction: float) -> Layout:
-        """Return the layout with its breaks moved to where a solution with these states puts them.
+    def with_proposed_ends(self, x: Array, state: ContactState, friction: float) -> Layout:
+        """Return the layout with its breaks where a solution with its states proposes them.
 
-        Pressure goes as a square root at an edge, mu p - |q| where stick turns to slip. Where
-        slip turns to stick, mu p - |q| is smooth: it goes as y^(3/2) from the place where stick
-        ends, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first order.
+        The pressure at an edge, and mu p - |q| at the trailing end of stick, vanish as a square
+        root. At the leading end of stick mu p - |q| is smooth: it goes as y^(3/2) with the distance
+        y from there, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first order in the error d.
 
         Parameters
         ----------
@@ -275,7 +286,7 @@ class Layout:
         state : a solution with ``states_on(x)``.
         friction : Coulomb coefficient.
         """
-        # Plain numbers: there are three of each at a handful of breaks.
+        # Lists, not arrays: NumPy would be slower for three values at each of a few breaks.
         nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
         signs, ends = shear_signs(self.states).tolist(), self.ends(x).tolist()
         last, edges = self.states.size, self.is_edge.tolist()
@@ -285,18 +296,18 @@ class Layout:
             smooth = not is_edge and self.states[number - 1] == STICK
             leads = number == last or self.states[number] == FREE
             inwards = -1 if smooth or leads else 1
-            # In a short zone of stick the shear may change its sign.
+            # The sign is that of the slip zone: in a short stick zone the shear may change sign.
             sign = 0 if is_edge else signs[number if smooth else number - 1]
             bound = 1.0 if is_edge else friction
-            # At a smooth end nothing is singular: where the first nodes tell no place, for values
-            # there are as small as their errors, nodes further inside do.
+            # At a smooth end the values at the first nodes may be no larger than their errors. If
+            # they propose a place beyond their own reach, nodes further inside are tried.
             furthest = (end - ends[number - 1]) // 3 if smooth else 1
             step, reach, apart = inf, 0.0, 1
             while abs(step) > reach and apart <= furthest:
                 beside = [end + inwards * apart * i for i in (1, 2, 3)]
                 distance = [abs(nodes[i] - place) for i in beside]
                 values = [bound * pressure[i] - sign * shear[i] for i in beside]
-                step, apart = outwards(distance, values, smooth=smooth), 2 * apart
+                step, apart = outward_move(distance, values, smooth=smooth), 2 * apart
                 reach = distance[-1]
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
@@ -304,9 +315,10 @@ class Layout:
     def slipping_at_edges(
         self, x: Array, state: ContactState, friction: float, least: float
     ) -> Layout:
-        """Return the layout with slip at those edges up to which the surfaces cannot stick.
+        """Return the layout with slip zones added at edges where stick leaves out some slip.
 
-        ``least``: shortest zone of slip that matters [mm]; else as `moved`.
+        ``least``: length of the shortest slip zone to add [mm]; other arguments as in
+        `with_proposed_ends`.
         """
         ends, breaks, states = self.ends(x), self.breaks.tolist(), self.states.tolist()
         for edge in np.flatnonzero(self.is_edge)[::-1].tolist():
@@ -323,9 +335,9 @@ class Layout:
         return found if found.is_proper else self
 
     def singular(self, x: Array, state: ContactState) -> Array:
-        """Return the inverse square roots that misplaced edges leave in the pressure, (2,).
+        """Return the amplitudes of the inverse square roots in the pressure at both edges, (2,).
 
-        In units of the square root that each edge should have, times how far it should move:
+        Each is the factor of the square root at that edge times the move that the edge needs,
         positive towards the leading edge [MPa sqrt(mm)].
         """
         ends = self.ends(x)
@@ -340,7 +352,7 @@ class Layout:
 
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Put stick between zones that slip both ways."""
+    """Return the zones with short stick zones between adjoining slip zones of opposite sign."""
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]

@@ -1,4 +1,4 @@
-"""Meshes with nodes at the ends of zones, at cosine places between, and cubics through these."""
+"""Meshes with nodes at the ends of zones and cosine nodes between, with cubic interpolation."""
 
 from __future__ import annotations
 
@@ -16,43 +16,44 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 FEWEST_ELEMENTS_OF_A_ZONE = 6
-# Share of all elements that a zone has at least: errors show between sizes only where each zone is
-# refined.
+# Least share of all elements that a zone has: the difference between two mesh sizes shows an error
+# only where every zone is refined.
 LEAST_SHARE_OF_A_ZONE = 0.08
-# Share taken off the creep from the last node to an edge per shear at that node: the square root of
-# the shear at the edge leaves it there although the shear is right. Half-plane (tests).
+# Correction of the creep from the last node to an edge per shear at that node, as a share of it:
+# what interpolating the square root of the shear at the edge gets wrong there even if the nodal
+# shear is exact. Measured on a half-plane (tests).
 CREEP_TO_EDGE = 0.02655
-_OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both ends of cosine places, in edge elements
-_PIECES_PER_ELEMENT = 2
-_MOST_NODE_VALUES = 500_000  # pieces times the square of the nodes, where pieces are many
+_OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
+_PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
+_MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _GAUSS_POINTS = 4  # in each piece
-_CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd where a zone is longer than so many boundary layers
-_ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least share of a zone's length: digits are lost
+_CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
+_ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
 
 
 @dataclass(frozen=True, slots=True)
 class Subdivision:
-    """Finer nodes between the nodes of a mesh, and the interpolation of values to them.
+    """Finer nodes between the nodes of a mesh, and the interpolation of nodal values to them.
 
-    On nodes at cosine places a traction is smooth in the *number* of the node, right up to an edge
-    where it goes as a square root in x. So a cubic in the number, through four nodes of one zone,
-    says what it is between them far better than a straight line in x does.
+    On cosine nodes a traction is smooth as a function of the node *index*, right up to an edge
+    where it goes as a square root in x. So a cubic in the index, through four nodes of one zone,
+    interpolates it far better than a straight line in x.
 
-    Tractions act as straight lines between the finer nodes. The mean of such a line differs from
-    the mean of the curve by h^2/12 times the second derivative. So the tractions that act get the
-    means of their cubics (each node half of the difference of the pieces on its two sides), and
-    all that depends on them is of fourth order rather than second.
+    Between the finer nodes the acting tractions are linear. The mean of a linear piece differs from
+    that of the curve by h^2/12 times the second derivative. So the acting tractions are adjusted to
+    have the means of the cubics (each node takes half of the differences on its two sides). That
+    makes everything computed from them fourth-order accurate rather than second.
 
     Attributes
     ----------
-    nodes : (M+1,) the finer nodes; those subdivided are among them [mm].
+    nodes : (M+1,) the finer nodes, including those of the mesh [mm].
     elements : number in each zone before the subdivision; empty where nothing was subdivided, or
-        where the zones are not those of a solution (states are sought node by node then).
+        where the zones are not those of a solution, as in a search node by node.
     crowding : of each zone, see `cosine_nodes`.
-    values : (M+1, N+1) values at them per value at the N+1 mesh nodes; None: the same nodes.
-    acting : (M+1, N+1) likewise for tractions that act.
-    means : (M-1, N) mean values between nodes[1:] per value at the nodes of the mesh but the first.
-    edges : numbers of nodes[1:-1] of the mesh at the trailing and leading edge of each piece of
+    values : (M+1, N+1) interpolation from the N+1 mesh nodes; None: the nodes are the same.
+    acting : (M+1, N+1) likewise, to the tractions that act.
+    means : (M-1, N) from the mesh nodes but the first, to mean values between nodes[1:].
+    edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     """
 
@@ -65,17 +66,17 @@ class Subdivision:
     edges: tuple[int, ...] = ()
 
     def integrated(self, values: Array) -> Array:
-        """Return integrals between nodes[1:] of the mesh of functions with ``values`` there."""
+        """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
         dx = (self.nodes[2:] - self.nodes[1:-1])[:, None]
         if self.means is None:
             return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
         return np.asarray(self.sums(dx * self.means) @ values)
 
     def sums(self, pieces: Array) -> Array:
-        """Return sums over the intervals of nodes[1:] of the mesh of values on those of these."""
+        """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
         if self.values is None:
             return pieces
-        # Each interval has as many pieces, but the one beyond the last break has not been cut.
+        # All intervals have equally many pieces, except that beyond the last break, which has one.
         parts = (self.nodes.size - 3) // (self.values.shape[1] - 3)
         out = pieces[::parts].copy()
         for part in range(1, parts):
@@ -90,19 +91,21 @@ def subdivided(
     shortest: float = inf,
     edges: Sequence[int] = (),
 ) -> Subdivision:
-    """Cut every element into equal steps of the node's number, but not those beyond both ends.
+    """Return a mesh with every element cut into equal steps of the node index.
+
+    The elements beyond both edges are not cut.
 
     Parameters
     ----------
-    nodes : (N+1,) of `cosine_nodes` [mm].
-    elements : in each zone, three or more; no cubic reaches from one into another.
-    crowding : of each zone, as it was given to `cosine_nodes`.
+    nodes : (N+1,) from `cosine_nodes` [mm].
+    elements : in each zone, three or more; no cubic extends across a break.
+    crowding : of each zone, as given to `cosine_nodes`.
     shortest :
         largest length of the pieces [mm], unless they become too many. The surface of a thin
-        incompressible layer moves as the second derivative of the pressure, which straight lines
-        longer than the thickness of the layer do not have.
+        incompressible layer moves as the second derivative of the pressure, which linear pieces
+        longer than the layer is thick cannot represent.
     edges :
-        numbers of nodes[1:-1] as in `Subdivision`; by default the first and the last.
+        indices in nodes[1:-1] as in `Subdivision`; by default the first and the last.
     """
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
@@ -118,24 +121,24 @@ def subdivided(
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:
-    """Return the indices of the last nodes of zones; node 0 lies before the first zone."""
+    """Return the index of the last node of each zone; node 0 lies before the first zone."""
     return [1 + end for end in accumulate(elements)]
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
-    """Return matrices that carry values to another mesh of the same zones, zone by zone.
+    """Return matrices that interpolate values to another mesh of the same zones, zone by zone.
 
-    The interpolation is cubic in the node's number, as good as that of tractions between nodes.
+    The interpolation is cubic in the node index, as accurate as that of tractions between nodes.
 
     Parameters
     ----------
-    before, after : zones and their elements.
+    before, after : the meshes interpolated from and to.
 
     Returns
     -------
-    Two of (sum of elements after + 1, sum of those before + 1): of values at nodes, and of values
-    of the intervals that begin at them, of which the one beyond the leading edge keeps its own.
-    None where the zones are not as many or crowd their nodes otherwise, or there are none.
+    Two matrices (sum of elements after + 1, sum of those before + 1): for values at nodes, and for
+    values of the intervals that begin at them; the interval beyond the leading edge keeps its own.
+    None where the meshes differ in the number or the crowding of their zones, or have none.
     """
     if before.crowding != after.crowding or not before.elements:
         return None
@@ -156,7 +159,7 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
 
 @lru_cache(maxsize=128)
 def _carry_zone(old: int, new: int, *, between: bool) -> Array:
-    """Return the rows of `_carry` of one zone but the last, (new, old + 1)."""
+    """Return the rows of `_carry` for one zone, without its last row, (new, old + 1)."""
     shift = 0.5 if between else 0.0
     places = (np.arange(new) + shift) * (old / new) - shift
     first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
@@ -167,10 +170,11 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
 
 
 def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float:
-    """Return the integral of the errors of the cubics of `subdivided` through values at nodes.
+    """Return the estimated error of cubic interpolation between nodes, integrated over x.
 
-    Between the inner two of four points an error is 3/128 of the fourth difference, from five
-    points. An error on a short element beside an edge matters as little as that element is long.
+    Between the middle two of four points the error is 3/128 of the fourth difference, which takes
+    five points. Integrated, an error counts in proportion to the length of its element, so little
+    in the short elements beside an edge.
 
     Parameters
     ----------
@@ -182,11 +186,11 @@ def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float
         values[4:] - 4.0 * (values[3:-1] + values[1:-3]) + 6.0 * values[2:-2] + values[:-4]
     )
     for end in accumulate(elements[:-1]):
-        fourth[end - 3 : end] = 0.0  # across a break nothing is smooth
+        fourth[end - 3 : end] = 0.0  # values are not smooth across a break
     return float(3.0 / 128.0 * fourth @ (0.5 * (nodes[3:-1] - nodes[1:-3])))
 
 
-@lru_cache(maxsize=8)  # as meshes of one size that differ in the places of their ends
+@lru_cache(maxsize=8)  # meshes of one size that differ only in the places of their breaks share it
 def _cubics(
     elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
 ) -> tuple[Array, Array, Array]:
@@ -211,10 +215,10 @@ def _cubics(
 
 @lru_cache(maxsize=128)
 def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array]:
-    """Return what one zone of ``n`` elements adds to `_cubics`.
+    """Return the block of one zone of ``n`` elements in the matrices of `_cubics`.
 
-    Values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means between
-    these.
+    That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
+    between these, (pieces n, n + 1).
     """
     interval, parts = np.arange(n), np.arange(pieces) / pieces
     first = np.minimum(np.maximum(interval - 1, 0), n - 3)
@@ -224,7 +228,7 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
     values[rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
     values[-1, -1] = 1.0
 
-    # Means over x, by Gauss points in the number of the node.
+    # Means over x, by Gauss quadrature in the node index.
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
     slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
@@ -235,22 +239,23 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
 
     lacking = means - 0.5 * (values[:-1] + values[1:])
     acting = values.copy()
-    acting[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])  # across a break nothing is smooth
+    acting[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])  # not at breaks: nothing is smooth there
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
     return values, acting, means
 
 
 def _cubic_weights(t: Array) -> Array:
-    """Return the weights of values at 0, 1, 2, 3 in the cubic through them at ``t``; (..., 4)."""
+    """Return the weights of values at 0, 1, 2, 3 in their cubic (Lagrange) at ``t``; (..., 4)."""
     a, b, c = t - 1.0, t - 2.0, t - 3.0
     return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
 
 
 def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
-    """Return how strongly nodes crowd at the ends of each zone to resolve boundary layers there.
+    """Return the crowding r of nodes in each zone that resolves boundary layers at its ends.
 
-    Each value is a power of two, so that zones that move a little keep theirs.
+    See `cosine_nodes`. Each value is a power of two, so that it does not change when ends move a
+    little.
 
     Parameters
     ----------
@@ -273,8 +278,8 @@ def elements_of_zones(
 ) -> Indices:
     """Return the number of elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
 
-    They are about ``count`` in all, and more where nodes crowd. A zone has ``least_share`` of them,
-    and six, at least.
+    They are about ``count`` in all, and more where nodes crowd. Each zone gets at least
+    ``least_share`` of ``count``, and at least `FEWEST_ELEMENTS_OF_A_ZONE`.
     """
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
@@ -290,27 +295,27 @@ def elements_of_zones(
 
 @lru_cache(maxsize=128)
 def more_elements(ratio: float) -> float:
-    """Return the factor by which crowding nodes raises the number of elements of a zone."""
+    """Return the factor by which crowding ``ratio`` raises the number of elements of a zone."""
     return sqrt(float(ellipkm1(ratio * ratio)) / (0.5 * pi))
 
 
 def cosine_nodes(
     breaks: Array, elements: Indices, crowding: tuple[float, ...] | None = None
 ) -> Array:
-    """Return nodes at cosine places on each zone between ``breaks``, and one beyond either end.
+    """Return cosine nodes on each zone between ``breaks``, and one node beyond either end.
 
-    Where a zone crowds its nodes by r < 1, cosines become elliptic functions: the share y of the
-    zone's length that lies before the share s of its elements is, with the modulus k' = r,
+    In a zone that crowds its nodes by r < 1, the cosine becomes an elliptic function. The share y
+    of the zone's length covered by the share s of its elements is, with modulus k' = r,
 
         y/(1 - y) = r sc(K s)^2,
 
-    for r = 1 that of cosine places. At either end y still goes as the square of s, but only up to
-    y = r; from there to the other end its logarithm goes evenly. So a boundary layer of that
-    length has its share of the nodes, and the roots at the ends are straight lines in the number.
+    which for r = 1 is the cosine. At either end y still grows as the square of s, but only up to
+    y = r; beyond, nodes are spaced evenly in its logarithm. So a boundary layer of that length gets
+    its share of the nodes, and square roots at the ends are linear in the node index.
 
     Parameters
     ----------
-    breaks : (m,) increasing: contact edges and the transitions between [mm].
+    breaks : (m,) increasing: edges of the contact and transitions [mm].
     elements : (m - 1,) number of them in each zone.
     crowding : (m - 1,) r of each zone; None: 1 everywhere.
     """
@@ -319,7 +324,7 @@ def cosine_nodes(
 
 
 def _places(share: Array, ratio: float) -> tuple[Array, Array]:
-    """Return the place in a zone of length 1 for a share of its elements, and its derivative."""
+    """Return the place y in a zone of length 1 for the share s of its elements, and dy/ds."""
     if ratio == 1.0:
         return 0.5 * (1.0 - np.cos(pi * share)), 0.5 * pi * np.sin(pi * share)
     quarter = float(ellipkm1(ratio * ratio))
@@ -331,7 +336,7 @@ def _places(share: Array, ratio: float) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=128)
 def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Array:
-    """Return the derivative of `cosine_nodes` by the place of each break."""
+    """Return the derivative of `cosine_nodes` with respect to the place of each break."""
     values = np.zeros((sum(elements) + 3, len(elements) + 1))
     first = 1
     for zone, (n, ratio) in enumerate(zip(elements, crowding, strict=True)):

@@ -1,4 +1,4 @@
-"""Solvers of a contact problem: with given states, and with states that are sought."""
+"""Solvers of a contact problem, with the states of nodes given or unknown."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, S
 
 @dataclass(slots=True)
 class GivenStates:
-    """Solver of a contact problem whose states are given and kept.
+    """Solver of a contact problem whose states are given.
 
-    It keeps its last linear system, for problems on the same mesh with other second-order terms.
+    It reuses the last factorised system while only the second-order terms of a problem change.
     """
 
     _last: LinearSystem | None = None
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution for these states; whether they are right is checked later."""
+        """Return the solution with these states; the caller checks whether they are right."""
         last = self._last
         if (
             last is None
@@ -39,16 +39,17 @@ class GivenStates:
 
 @dataclass(frozen=True, slots=True)
 class Safeguarded:
-    """The coupled active set; where it cycles, states by an interior point (the default).
+    """The coupled active set, with an interior-point method to fall back on where it cycles.
 
     Parameters
     ----------
     fast :
-        the coupled active set and its limit of steps.
+        the coupled active set, with its limit of steps.
     rounding :
-        violations smaller than this, relative, count as met by the states of the interior point.
+        relative violation of the conditions up to which the interior point's states are accepted.
     most_nodes :
-        larger problems are left to the active set: some twenty systems of them take seconds.
+        largest problem for the interior point; it takes some twenty linear systems, which for
+        larger problems last seconds.
     """
 
     fast: CoupledActiveSet = field(default_factory=CoupledActiveSet)
@@ -56,7 +57,10 @@ class Safeguarded:
     most_nodes: int = 160
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Solve from ``states``; ``settled`` says whether the conditions hold at the nodes."""
+        """Return the solution from initial ``states``.
+
+        ``settled`` tells whether the contact conditions hold at the nodes.
+        """
         try:
             solution = self.fast.solve(problem, states)
         except np.linalg.LinAlgError:
@@ -64,15 +68,15 @@ class Safeguarded:
         if solution.settled or problem.x.size > self.most_nodes:
             return solution
         try:
-            slow = self._at_once(problem)
+            slow = self._by_interior_point(problem)
         except np.linalg.LinAlgError:
             slow = unsolved(problem)
         if not slow.settled and np.any(solution.pressure):
             slow = solution
         return replace(slow, steps=solution.steps + slow.steps)
 
-    def _at_once(self, problem: ContactProblem) -> ContactState:
-        """Solve for the states of all nodes at once, and check the result afterwards."""
+    def _by_interior_point(self, problem: ContactProblem) -> ContactState:
+        """Return the interior-point solution, settled if its own solution implies its states."""
         found = interior_point(*inequalities_of(problem))
         states = found.touches.astype(np.int8)  # 1: STICK
         if found.states.size:
@@ -83,14 +87,14 @@ class Safeguarded:
 
 
 def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:
-    """Return the conditions of a contact problem, and unknowns to begin with.
+    """Return the complementarity problem of a contact problem, and initial unknowns.
 
-    Unknowns are the pressures, the shears where there is friction, the approach and the creepage.
+    Unknowns are the pressures, the shears if there is friction, the approach and the creepage.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where nothing is pressed.
+        where the surfaces are not pressed together.
     """
     n, control = problem.x.size, problem.control
     shears = n + np.arange(n if problem.friction > 0.0 else 0)
@@ -109,7 +113,7 @@ def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:
     else:
         matrix[-1, -1], right[-1] = 1.0, -(control.creepage or 0.0)
 
-    # Sizes follow from a pressure that is the same everywhere.
+    # Sizes are estimated from a uniform pressure.
     depth = float(np.abs(problem.normal_pressure).sum(axis=1).max())
     weight = float(problem.weights.sum())
     if control.load is not None:

@@ -1,4 +1,4 @@
-"""The discrete rolling contact problem: arrays in, arrays out."""
+"""The discrete rolling contact problem and its solution, as arrays."""
 
 from __future__ import annotations
 
@@ -57,12 +57,12 @@ class ContactProblem:
     ----------
     x : (n,) nodes [mm].
     weights : (n,) load of a unit nodal pressure [mm].
-    clearance : (n,) gap of the undeformed rollers at touch [mm].
-    influence : (2 n, 2 n) the four matrices in one, [[normal_pressure, normal_shear],
+    clearance : (n,) gap between the undeformed rollers at first touch [mm].
+    influence : (2 n, 2 n) block matrix [[normal_pressure, normal_shear],
         [creep_pressure, creep_shear]] [mm/MPa]; see `influence_of`.
-    creep_length, creep_offset : (n,) [mm].
+    creep_length, creep_offset : (n,) factor of xi in the creep, and part without tractions [mm].
     friction : Coulomb coefficient mu >= 0.
-    control : what is prescribed.
+    control : the prescribed quantities.
     """
 
     x: Array
@@ -98,7 +98,7 @@ class ContactProblem:
 def influence_of(
     *, normal_pressure: Array, normal_shear: Array, creep_pressure: Array, creep_shear: Array
 ) -> Array:
-    """Return the influence matrix of a `ContactProblem` from its parts, each (n, n) [mm/MPa]."""
+    """Return the influence matrix of a `ContactProblem` from its blocks, each (n, n) [mm/MPa]."""
     n = normal_pressure.shape[0]
     out = np.empty((2 * n, 2 * n))
     out[:n, :n], out[:n, n:] = normal_pressure, normal_shear
@@ -108,15 +108,15 @@ def influence_of(
 
 @dataclass(frozen=True, slots=True)
 class ContactState:
-    """A solution of the discrete problem, or the last iterate.
+    """A solution of the discrete problem, or the last iterate of a solver.
 
     Attributes
     ----------
     states : (n,) State of each node.
     pressure, shear : (n,) nodal tractions [MPa].
-    approach, creepage : delta [mm], xi; xi is nan without friction and prescription.
-    steps : linear systems solved.
-    settled : whether the states reproduce themselves.
+    approach, creepage : delta [mm], xi; xi is nan if there is no friction and it is not prescribed.
+    steps : number of linear systems solved.
+    settled : whether the solver converged: the solution implies the states it was solved with.
     """
 
     states: States
@@ -152,7 +152,7 @@ def shear_signs(states: States) -> Array:
 
 
 def unsolved(problem: ContactProblem) -> ContactState:
-    """Return a state that is no solution: all surfaces free, not settled."""
+    """Return a placeholder for a failed solution: all nodes free, not settled."""
     zero = np.zeros(problem.x.size)
     states = np.full(problem.x.size, State.FREE, dtype=np.int8)
     return ContactState(states, zero, zero, 0.0, np.nan, 0, False)

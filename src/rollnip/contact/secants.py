@@ -1,4 +1,4 @@
-"""How the ends of zones move one another, learnt from one mesh to the next."""
+"""Broyden's method for the ends of zones, across meshes that follow them."""
 
 from __future__ import annotations
 
@@ -9,87 +9,94 @@ import numpy as np
 from rollnip.contact.free_ends import Layout
 from rollnip.contact.problem import Array, Mask
 
-_LONGEST_STEP = 3.0  # of an end, over the longest proposed move, or the last step
+_LONGEST_STEP = 3.0  # longest step of an end, over the longest proposed move, or the last step
 _TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(slots=True)
 class Secants:
-    """Places of the ends of zones, by Broyden's method from what the last meshes proposed.
+    """Broyden's method for the places of the ends of zones: the roots of the proposed moves.
 
-    A solution proposes to move each end by its error where the surfaces respond as
-    half-planes and no end moves another. So the slope of the proposed moves is taken as -1 on the
-    diagonal, and each mesh adds what it shows of the rest. Where a solution says only which way an
-    end should go, it goes half-way to the last place with a proposal for the other.
+    The solution on each mesh proposes a move of each end. Where surfaces respond as half-planes and
+    ends do not affect one another, the proposed move is the error of the end. So the Jacobian of
+    the proposed moves starts as minus the identity, and each mesh updates it. Where a solution only
+    shows the direction in which an end should move, the end is found by bisection between the last
+    places that called for either direction.
 
-    A proposed move is the ratio of an inverse square root and a square root in the pressure. Under
-    a skin that is misplaced by more than its thickness both grow alike: the ratio tells no more
-    than the thickness. The inverse square root alone goes on as the edge does, for the solution is
-    linear in the gap that the contact closes too much or too little. So the edges of a single zone
-    are placed by it where nothing else enters the pressure there, in units in which it is the first
-    proposed move.
+    A proposed move is the ratio of an inverse square root to a square root in the pressure. Under a
+    skin, if an edge is misplaced by more than the skin is thick, both grow alike, and the ratio
+    shows no more than the thickness. The inverse square root alone stays proportional to the
+    error, as the solution is linear in the gap that the contact closes too much or too little. So
+    it replaces the ratio at the edges of a single zone where nothing else enters the pressure
+    there; its unit is chosen to give the first proposed move.
 
     Attributes
     ----------
-    reach : how far an end without a proposed place goes at most: as far as ends are misplaced, and
-        twice as far each time that one is lost again [mm].
-    slope : (m, m) of the proposed moves by the places of the ends; None: not known yet.
+    reach : longest move of an end with no finite proposed place: the misplacement expected at
+        first, doubled each time an end has none [mm].
+    jacobian : (m, m) of the proposed moves with respect to the places; None at first.
     last : (m,) places of the ends on the last mesh, and the moves proposed there [mm].
     """
 
     reach: float = np.inf
-    slope: Array | None = None
+    jacobian: Array | None = None
     last: tuple[Array, Array] | None = None
     _longest: float = 0.0
     _unit: Array | None = None
-    _within: tuple[Array, Array] | None = None
+    _bracket: tuple[Array, Array] | None = None
     _vanishing: Mask | None = None
 
     def forget(self) -> None:
-        """Forget the last mesh, whose nodes lay otherwise."""
-        self.last = self._within = None
+        """Forget the last mesh, as its moves do not compare with those on a different mesh.
 
-    def next(
-        self, layout: Layout, proposed: Layout, singular: Array | None, *, is_still: bool
+        The Jacobian is kept.
+        """
+        self.last = self._bracket = None
+
+    def next_layout(
+        self, layout: Layout, proposed: Layout, singular: Array | None, *, only_ends_move: bool
     ) -> Layout:
         """Return the zones with their ends at the next places to try.
 
-        Ends for which no place is proposed go part of the way.
+        Ends with no finite proposed place move by a limited step in the proposed direction.
 
         Parameters
         ----------
         layout : the zones of the last mesh.
         proposed : the same zones with the ends where its solution puts them.
         singular : (2,) inverse square roots at the edges of a single zone, see `Layout.singular`;
-            None: it is the ratio that counts.
-        is_still : whether nothing but the ends will change from this mesh to the next.
+            None: use the proposed moves themselves.
+        only_ends_move : whether only the ends will change from this mesh to the next, so that the
+            secant between the two may be used.
         """
         moves = self._moves(layout, proposed, singular)
         given = ~np.isfinite(moves)
-        lost = np.clip(layout.towards(proposed).breaks - layout.breaks, -self.reach, self.reach)
+        lost = np.clip(
+            layout.stepped_towards(proposed).breaks - layout.breaks, -self.reach, self.reach
+        )
         steps = np.where(given, lost, 0.0)
         self.reach *= 2.0 if given.any() else 1.0
-        slope = self._learnt(layout.breaks, moves)
+        jacobian = self._updated_jacobian(layout.breaks, moves)
         free = ~given
         if free.any():
-            wanted = moves[free] + slope[np.ix_(free, given)] @ steps[given]
+            wanted = moves[free] + jacobian[np.ix_(free, given)] @ steps[given]
             try:
-                steps[free] = -np.linalg.solve(slope[np.ix_(free, free)], wanted)
+                steps[free] = -np.linalg.solve(jacobian[np.ix_(free, free)], wanted)
             except np.linalg.LinAlgError:
                 steps[free] = moves[free]
             longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
             if self._unit is not None and self.last is not None:
-                longest = np.inf  # the slope along the edges' way is known, and hardly changes
+                longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
-        self.last = (layout.breaks, moves) if is_still else None
-        there = layout.towards(Layout(layout.breaks + steps, layout.states))
-        places = self._half_way(layout.breaks, layout.breaks + moves, there.breaks)
+        self.last = (layout.breaks, moves) if only_ends_move else None
+        limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
+        places = self._bracketed(layout.breaks, layout.breaks + moves, limited.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
 
     def _moves(self, layout: Layout, proposed: Layout, singular: Array | None) -> Array:
-        """Return the proposed moves, by the inverse square roots where these are given."""
+        """Return the proposed moves, from the inverse square roots where these are given."""
         moves = proposed.breaks - layout.breaks
         if singular is None:
             return moves
@@ -97,33 +104,34 @@ class Secants:
             self._unit = moves / singular
         return moves if self._unit is None else self._unit * singular
 
-    def _learnt(self, breaks: Array, moves: Array) -> Array:
-        """Return the slope of the proposed moves, with what the last two meshes show of it."""
-        if self.slope is None:
-            self.slope = -np.eye(moves.size)
+    def _updated_jacobian(self, breaks: Array, moves: Array) -> Array:
+        """Return the Jacobian after Broyden's update from the last two meshes."""
+        if self.jacobian is None:
+            self.jacobian = -np.eye(moves.size)
         if self.last is not None:
             step = breaks - self.last[0]
             known = np.isfinite(moves) & np.isfinite(self.last[1])
             missed = np.zeros(moves.size)
-            missed[known] = moves[known] - self.last[1][known] - self.slope[known] @ step
-            self.slope = self.slope + np.outer(missed, step) / max(float(step @ step), _TINY)
-        return self.slope
+            missed[known] = moves[known] - self.last[1][known] - self.jacobian[known] @ step
+            self.jacobian = self.jacobian + np.outer(missed, step) / max(float(step @ step), _TINY)
+        return self.jacobian
 
-    def _half_way(self, breaks: Array, proposed: Array, there: Array) -> Array:
-        """Return the next places, half-way back for ends that have gone too far to have one.
+    def _bracketed(self, breaks: Array, proposed: Array, limited: Array) -> Array:
+        """Return the next places, with bisection for ends that no finite place is proposed for.
 
-        The edges of a single zone stay between the last places with a proposal for either way.
+        The edges of a single zone always stay between the last places that called for either
+        direction.
         """
-        if self._within is None:
-            self._within = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
-        low, high = self._within
+        if self._bracket is None:
+            self._bracket = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
+        low, high = self._bracket
         low = np.where(proposed > breaks, breaks, np.where(low < breaks, low, -np.inf))
         high = np.where(proposed < breaks, breaks, np.where(high > breaks, high, np.inf))
-        self._within = low, high
-        # No transition moves such ends.
+        self._bracket = low, high
+        # Bracketing holds only for these: there is no transition to move them.
         is_alone = breaks.size == 2 and self._unit is None
-        lost = np.isinf(proposed) | ((there <= low) | (there >= high) if is_alone else False)
-        out = there.copy()
+        lost = np.isinf(proposed) | ((limited <= low) | (limited >= high) if is_alone else False)
+        out = limited.copy()
         between = lost & np.isfinite(low) & np.isfinite(high)
         out[between] = 0.5 * (low[between] + high[between])
         away = lost & ~between & np.isfinite(proposed)
@@ -131,7 +139,7 @@ class Secants:
         return out
 
     def vanishing(self, layout: Layout, proposed: Layout) -> Mask:
-        """Return the zones of which two solutions in succession leave no length, (m,)."""
+        """Return the zones to which two successive solutions leave no length, (m,)."""
         now = layout.vanishing(proposed)
         again = np.zeros_like(now) if self._vanishing is None else now & self._vanishing
         self._vanishing = now

@@ -1,19 +1,20 @@
-"""The rolling contact of two rollers, from a nip to its figures and what they claim.
+"""The rolling contact of two rollers, from a nip to its figures and their claimed errors.
 
 1. Influence functions of both rollers are tabulated (`surfaces.pair_kernels`), and the width of the
-   contact is guessed from elliptic pressures (`start`).
-2. Where surfaces are free, stick or slip is found node by node on a coarse mesh that reaches beyond
-   that contact (`refinement`; solvers in `rollnip.contact`).
-3. These zones get nodes at their ends. The tractions beside each end tell where it should be, and
-   it is moved there; a solution with placed ends tells whether its zones are right (`placing`,
-   `search`). On each mesh, terms that depend on the solution are found by iteration (`iterations`).
-4. Meshes are refined until the estimated errors are below the tolerance (`free_ends`, `estimates`).
-   Where they do not become so, zones are found again from more nodes (`refinement`).
-5. The contact conditions are evaluated between the nodes, too (`check`). With the errors, that is
-   what the figures claim (`claimed_errors`).
+   contact is estimated from elliptic pressures (`start`).
+2. Free, sticking and slipping zones are found node by node, on a coarse mesh that extends beyond
+   the estimated contact (`refinement`; solvers in `rollnip.contact`).
+3. The ends of these zones are then a free boundary: a mesh has nodes at them, the tractions beside
+   each end tell where it should be, and the mesh follows. Once the ends are placed, the solution
+   shows whether there are other zones (`placing`, `end_search`, `search`). On each mesh, terms that
+   depend on the solution are found by fixed-point iteration (`iterations`).
+4. Meshes are refined until the estimated discretisation errors are below the tolerance
+   (`free_ends`, `estimates`). If that fails, zones are found again from more nodes (`refinement`).
+5. The contact conditions are evaluated between the nodes as well (`check`). Their residual and the
+   estimated errors give the errors that the figures claim (`claimed_errors`).
 
-At finite strain a correction of all orders is held through steps 2 to 4 and evaluated again from
-their solution, until both agree (`beyond`, `held`).
+At finite strain a correction of all orders is held fixed through steps 2 to 4, then evaluated again
+from their solution, until the two agree (`beyond`, `held`).
 """
 
 from rollnip.rolling.assemble import stretch_excess, surface_depths
@@ -25,27 +26,27 @@ from rollnip.rolling.check import (
 )
 from rollnip.rolling.claimed_errors import (
     claims,
-    further_claims,
     model_shares,
     relative_claims,
+    secondary_claims,
 )
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.further import further_figures, further_sizes
-from rollnip.rolling.nearby import Nearby
-from rollnip.rolling.power_balance import Powers, powers, rates_of
-from rollnip.rolling.refinement import refine
-from rollnip.rolling.round import (
-    Ended,
+from rollnip.rolling.mesh_solution import (
     Figures,
-    Further,
-    Round,
+    IterationFailure,
+    MeshSolution,
+    SecondaryFigures,
     creepage_scale,
-    excess,
+    error_ratio,
     has_grip,
     peak_at,
     peak_pressure,
     peaks_alike,
 )
+from rollnip.rolling.nearby import Nearby
+from rollnip.rolling.power_balance import Powers, powers, rates_of
+from rollnip.rolling.refinement import refine
+from rollnip.rolling.secondary import secondary_figures, secondary_sizes
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     PairKernels,
@@ -55,21 +56,18 @@ from rollnip.rolling.surfaces import (
 
 __all__ = [
     "Displacements",
-    "Ended",
     "Figures",
-    "Further",
+    "IterationFailure",
+    "MeshSolution",
     "Nearby",
     "PairFields",
     "PairKernels",
     "Powers",
-    "Round",
+    "SecondaryFigures",
     "claims",
     "creepage_scale",
-    "excess",
+    "error_ratio",
     "fields_at",
-    "further_claims",
-    "further_figures",
-    "further_sizes",
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
@@ -83,6 +81,9 @@ __all__ = [
     "refine",
     "refine_all_orders",
     "relative_claims",
+    "secondary_claims",
+    "secondary_figures",
+    "secondary_sizes",
     "stretch_excess",
     "surface_depths",
     "surface_strain_in_nip",

@@ -1,4 +1,4 @@
-"""Assembly of a discrete contact problem from a nip, its influence functions and a mesh."""
+"""Assembly of the discrete contact problem of a nip on a mesh, with its second-order terms."""
 
 from __future__ import annotations
 
@@ -37,15 +37,16 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class SecondOrder:
-    """Terms that depend on the solution itself, taken from the last solution.
+    """Terms of the contact conditions that depend on the solution, from the last iterate.
 
     Attributes
     ----------
     clearance : (n,) added to the gap [mm].
     creep_length : (n,) added to the interval lengths that multiply xi [mm].
     creep_offset : (n,) added to the creep [mm].
-    traction : the traction that gives the wanted torque [N/mm]; None where no torque is wanted.
-    lean : line load that the shear takes from the pressure, int q slope dx [N/mm].
+    traction : traction that gives the prescribed torque [N/mm]; None where no torque is prescribed.
+    lean : line load that the shear takes off that of the pressure, as the interface is tilted:
+        int q slope dx [N/mm].
     """
 
     clearance: Array
@@ -55,7 +56,7 @@ class SecondOrder:
     lean: float = 0.0
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
-        """Return these terms on another mesh, zone by zone where both have the same zones."""
+        """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
         matrices = carry(old.fine, new.fine)
         rates = np.array([self.creep_length, self.creep_offset]) / old.dx
         if matrices is not None:
@@ -71,14 +72,15 @@ class SecondOrder:
     def change(
         self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]
     ) -> float:
-        """Return the largest change since ``before`` of gap, creep per length and traction.
+        """Return the largest relative change from ``before`` of gap, creep per length and traction.
 
-        The change of the creep is a root mean square: strains at the very edge follow each mesh.
+        The change of the creep is a root mean square, as the strain right at an edge varies from
+        mesh to mesh.
 
         Parameters
         ----------
-        creepage : of the solution, which multiplies lengths.
-        dx : of the intervals [mm].
+        creepage : of the solution, as factor of the creep lengths.
+        dx : (n,) lengths of the intervals [mm].
         scales : an approach [mm], a strain and a traction [N/mm] to which changes are relative.
         """
         approach, strain, traction = scales
@@ -115,7 +117,7 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
 
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
-    """Return the second-order terms of a solution on a mesh."""
+    """Return the second-order terms that follow from a solution on a mesh."""
     if has_no_second_order(nip, geometry):
         return first_guess(nip, mesh)
     flat = mesh.linear_displacements(state)
@@ -150,9 +152,10 @@ def _control(nip: Nip, second: SecondOrder) -> Control:
 
 
 def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
-    """Return how far each surface lies from the tangent at first touch, before the approach [mm].
+    """Return the depth of each deformed surface below the tangent at first touch, (n,) each [mm].
 
-    At finite strain u_z is that of the material that is at x now: the radius there is R - u_z.
+    The approach is left out. At finite strain u_z belongs to the material that is at x after
+    deformation: the radius there is R - u_z.
     """
     sides = (
         (nip.upper, u.x_upper, u.z_upper),
@@ -170,9 +173,9 @@ def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
 
 
 def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
-    """Int (stretch - 1) dx of the upper and the lower surface over each interval, (2, n - 1) [mm].
+    """Return int (stretch - 1) dx of the upper and lower surface per interval, (2, n - 1) [mm].
 
-    A rigid roller does not stretch.
+    It is 0 for a rigid roller.
     """
     rollers = (nip.upper, nip.lower)
     hoops = np.array([[hoop_curvature(roller, geometry)] for roller in rollers])
@@ -189,11 +192,11 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
 def _stretch_terms(
     nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
-    """Return the terms that the stretch of both surfaces adds to the linear creep [mm].
+    """Return ``creep_length`` and ``creep_offset`` of `SecondOrder` due to stretch [mm].
 
     The creep is the integral of (1 + xi/2) stretch_u - (1 - xi/2) stretch_l over an interval. The
-    first term is the factor of xi less the length of the interval; the second is the part without
-    xi less its linear part.
+    first term is the factor of xi minus the length of the interval; the second is the part
+    independent of xi minus its linear part.
     """
     finer = mesh.finer(u)
     flat = finer if flat is u else mesh.finer(flat)
@@ -210,9 +213,10 @@ def stretch_parts(
     flat: Displacements,
     u: Displacements,
 ) -> tuple[Array, Array]:
-    """Return `stretch_excess` in two parts: the linear one, and the one beyond that is held if any.
+    """Return `stretch_excess` split into its linear part and the rest.
 
-    ``flat``: the linear part of the displacements ``u``.
+    The rest is that held by ``kernels`` if they hold a stretch. ``flat``: the linear part of the
+    displacements ``u``.
     """
     dx, hoops = x[1:] - x[:-1], np.array(kernels.hoops)[:, None]
     linear, beyond = linear_stretch(dx, hoops, *flat.rows), kernels.held_stretch(x)
@@ -224,23 +228,23 @@ def stretch_parts(
 
 
 def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:
-    """Return the creep over intervals of lengths ``dx``, from `stretch_excess` (n,) [mm].
+    """Return the creep over intervals of lengths ``dx`` (n,), from `stretch_excess` (2, n) [mm].
 
-    Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx.
+    It is int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx.
     """
     upper, lower = excess
     if geometry in ("linear", "corrected"):
-        # Small strains: the product of creepage and strain is left out.
+        # At small strain the product of creepage and strain is neglected.
         return np.asarray(creepage * dx + upper - lower)
     half = 0.5 * creepage
     return np.asarray(creepage * dx + (1.0 + half) * upper - (1.0 - half) * lower)
 
 
 def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array | float:
-    """Length of the deformed interface over dx in each interval, (n - 1,).
+    """Return the length of the deformed interface over dx in each interval, (n - 1,).
 
-    Only at finite strain is x a place, and the shear a force per length of the interface;
-    elsewhere it is a force per x.
+    It is 1 unless the strain is finite. Only then is x a place in the deformed state, and the shear
+    a force per length of interface; otherwise the shear is a force per dx.
     """
     if geometry not in FINITE:
         return 1.0
@@ -251,7 +255,7 @@ def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array
 
 
 def mean_shear(mesh: Mesh, state: ContactState) -> Array:
-    """Return the mean shear that acts on the intervals of the finer nodes but the first [MPa]."""
+    """Return the mean acting shear on the intervals of the finer nodes[1:] [MPa]."""
     shear = mesh.acting(state.shear)
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
@@ -259,14 +263,15 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
 def stretches(
     nip: Nip, geometry: Geometry, mesh: Mesh, u: Displacements, finer: Displacements, slips: Bools
 ) -> tuple[Array, Array]:
-    """Return `stretch_excess` as solved, and with the short waves that were cut, (2, n) [mm].
+    """Return `stretch_excess` as solved, and with the short waves that were cut, (2, n) each [mm].
 
-    Over the intervals of the finer nodes but the first. Only slip asks for the latter.
+    Both are over the intervals of the finer nodes[1:]. Only slip needs the second; without slip it
+    is the same as the first.
 
     Parameters
     ----------
-    u, finer : displacements at nodes[1:], and at the finer nodes but the first.
-    slips : (n,) whether the surfaces slip there.
+    u, finer : displacements at nodes[1:], and at the finer nodes[1:].
+    slips : (n,) whether the surfaces slip in each interval.
     """
     x = mesh.fine.nodes[1:]
     excess, uncut = stretch_excess(x, nip, geometry, finer), mesh.uncut(u)
@@ -276,24 +281,24 @@ def stretches(
 
 
 def pulls(dx: Array, shear: Array, both: tuple[Array, Array], slips: Bools) -> Array:
-    """Int q lambda ds of the upper and the lower surface, (2,) [N/mm].
+    """Return int q lambda ds of the upper and the lower surface, (2,) [N/mm].
 
-    This is the power that the shear hands over per speed of that surface. Where surfaces slip,
-    lambda is that of the tractions, with the short waves that a contact cannot follow: the solution
-    without them has the lambda of smoother tractions, which are others.
+    This is the power that the shear transmits, divided by the speed of that surface. Where surfaces
+    slip, lambda includes the short waves cut from the correction, as these belong to the actual
+    tractions; without them lambda would be that of other, smoother tractions.
 
     Parameters
     ----------
     dx, shear : (n,) lengths of the intervals [mm], and the mean shear in them per ``dx`` [MPa].
     both : see `stretches`.
-    slips : (n,) whether the surfaces slip there.
+    slips : (n,) whether the surfaces slip in each interval.
     """
     excess, uncut = both
     return np.asarray((dx + np.where(slips, uncut, excess)) @ shear)
 
 
 def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
-    """Return which of the intervals between ``x`` lie in a zone that slips, (n - 1,)."""
+    """Return which of the intervals between ``x`` have their middle in a slip zone, (n - 1,)."""
     middle = 0.5 * (x[1:] + x[:-1])
     slips = np.zeros(middle.size, dtype=bool)
     for zone in zones:
@@ -310,10 +315,10 @@ def moment(
     state: ContactState,
     u: Displacements,
 ) -> float:
-    """Return the moment of the tractions about one axle, over the radius [N/mm].
+    """Return the moment of the tractions about one axle, divided by the radius [N/mm].
 
-    ``u``: at nodes[1:]. At the height eta over the tangent, with the slope eta', the upper surface
-    is pushed by (q - p eta', p + q eta') per dx, the lower one by (-q - p eta', p - q eta').
+    ``u``: displacements at nodes[1:]. At height eta above the tangent and slope eta', the force per
+    dx is (q - p eta', p + q eta') on the upper surface, (-q - p eta', p - q eta') on the lower.
     """
     number, roller, sign = (0, nip.upper, 1.0) if side == "upper" else (1, nip.lower, -1.0)
     x = mesh.fine.nodes[1:]
@@ -328,10 +333,10 @@ def moment(
 
 
 def loss_inside(side: Side, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> float:
-    """Return the heat inside one of the rollers per distance of its surface [N/mm].
+    """Return the viscous loss inside one roller per distance rolled by its surface [N/mm].
 
-    It is that of the linear fields under the tractions of the solution; in geometry "finite" with
-    what all orders add to it. In "second" it leaves out a share as large as the strains.
+    It is that of the linear fields under the tractions of the solution; geometry "finite" adds the
+    contribution of all orders. In "second" it neglects a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:
@@ -343,7 +348,7 @@ def loss_inside(side: Side, nip: Nip, geometry: Geometry, mesh: Mesh, state: Con
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
-    """Int q slope dx, the slope of the interface that of both surfaces on average."""
+    """Return int q slope dx, with the mean slope of both surfaces as that of the interface."""
     levers = mesh.weights @ (state.shear * mesh.inner)
     undeformed = (nip.lower.curvature - nip.upper.curvature) * levers
     return 0.5 * float(undeformed + mesh.work(state.shear, u.z_lower - u.z_upper))
@@ -352,9 +357,9 @@ def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
 def _traction_for_torque(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
 ) -> float:
-    """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed.
+    """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed [N/mm].
 
-    No number where the second-order terms have run away: such a solution is not verified.
+    It is nan where the second-order terms have diverged; such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
     x, finer = mesh.fine.nodes[1:], mesh.finer(u)

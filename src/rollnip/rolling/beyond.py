@@ -43,9 +43,9 @@ from rollnip.rolling.held import (
     solved_next,
 )
 from rollnip.rolling.iterations import change_of, with_residual
+from rollnip.rolling.mesh_solution import IterationFailure, MeshSolution
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.refinement import IsTooDeep
-from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
@@ -85,7 +85,7 @@ def refine_all_orders(
     cache: KernelCache,
     is_too_deep: IsTooDeep,
     near: Nearby | None = None,
-) -> tuple[PairKernels, Round]:
+) -> tuple[PairKernels, MeshSolution]:
     """Solve a contact by iteration with the correction of all orders.
 
     Where a nip much like it has been solved, iterations start from that solution.
@@ -93,7 +93,7 @@ def refine_all_orders(
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it has not settled; ``ended`` tells how far iterations got.
+    is found, or no contact, it has not settled; ``failure`` tells how far iterations got.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -103,9 +103,9 @@ def refine_all_orders(
     start, latest, stage = begin(
         nip, model, kernels, half_width, None if grips_skin(nip) else second, is_too_deep
     )
-    ended: Ended | None = None
+    failure: IterationFailure | None = None
     if latest.settled and is_too_deep(latest, is_rough=True):
-        ended = Ended("depth", 0, inf)
+        failure = IterationFailure("depth", 0, inf)
     elif latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         begun = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
@@ -116,12 +116,12 @@ def refine_all_orders(
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
             found = _iterated(nip, model, (start, latest), orders, stage, is_too_deep)
-            if not isinstance(found, Ended):
+            if not isinstance(found, IterationFailure):
                 return found
-            ended = found
-            if ended.cause == "balance" and ended.iterations == 0:
+            failure = found
+            if failure.cause == "balance" and failure.iterations == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
-    return start, replace(latest, settled=False, ended=ended)
+    return start, replace(latest, settled=False, failure=failure)
 
 
 def _from_nearby(
@@ -131,18 +131,18 @@ def _from_nearby(
     sizes: tuple[float, float],
     near: Nearby | None,
     is_too_deep: IsTooDeep,
-) -> tuple[PairKernels, Round] | None:
+) -> tuple[PairKernels, MeshSolution] | None:
     """Solve from the solution of a nip near by; None where there is none or it is too far.
 
     ``sizes``: half-width of the contact [mm] and strain of the surface.
     """
     half_width, strain = sizes
-    begun = None if near is None else near.begun(nip, model, kernels, half_width)
+    begun = None if near is None else near.first_contact(nip, model, kernels, half_width)
     if near is None or begun is None:
         return None
     orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
     found = _iterated(nip, model, begun, orders, Stage.REFINED, is_too_deep, is_near=True)
-    return None if isinstance(found, Ended) else found
+    return None if isinstance(found, IterationFailure) else found
 
 
 @dataclass
@@ -228,13 +228,13 @@ class Least(Generic[Found]):
 def _iterated(
     nip: Nip,
     model: Model,
-    begun: tuple[PairKernels, Round],
+    begun: tuple[PairKernels, MeshSolution],
     orders: AllOrders,
     stage: Stage,
     is_too_deep: IsTooDeep,
     *,
     is_near: bool = False,
-) -> tuple[PairKernels, Round] | Ended:
+) -> tuple[PairKernels, MeshSolution] | IterationFailure:
     """Solve the contact and evaluate its correction by iteration.
 
     On a coarse mesh until the changes to come are small, then on a refined one until the contact
@@ -244,7 +244,7 @@ def _iterated(
     """
     kernels, latest = begun
     change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
-    least = Least[tuple[PairKernels, Round]]()
+    least = Least[tuple[PairKernels, MeshSolution]]()
     iterations = 0
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
@@ -282,11 +282,11 @@ def _iterated(
         past = past if stage is was else Past(places_by_the_edges(_edges(latest)))
         latest = found
     if least.found is None:
-        return Ended(cause, iterations, change)
+        return IterationFailure(cause, iterations, change)
     return least.found
 
 
-def _edges(latest: Round) -> tuple[float, float]:
+def _edges(latest: MeshSolution) -> tuple[float, float]:
     return latest.zones[0].start, latest.zones[-1].stop
 
 
@@ -306,8 +306,8 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
 
 
 def _with_own_correction(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
-) -> Round:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, change: float
+) -> MeshSolution:
     """Return a solution with its violation of the contact conditions under its own correction.
 
     With the stretch of the displacements themselves, and where the conditions are met also with the
@@ -325,12 +325,12 @@ def _with_own_correction(
     return replace(checked, cut=cut)
 
 
-def _with(latest: Round, kernels: PairKernels) -> Round:
+def _with(latest: MeshSolution, kernels: PairKernels) -> MeshSolution:
     """Return a solution whose mesh has the correction of some influence functions."""
     return replace(latest, mesh=latest.mesh.holding(kernels))
 
 
-def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
+def _change(nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution) -> float:
     """Return by how much a correction changes the terms of finite strain of a solution."""
     mesh = _with(latest, kernels).mesh
     own = second_order(nip, model.geometry, mesh, latest.state)

@@ -1,4 +1,4 @@
-"""What the changes of figures between sizes of mesh say of their errors."""
+"""Error estimates from the changes of figures between mesh sizes (Richardson)."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from rollnip.rolling.surfaces import Array
 
-_SAFETY_FACTOR = 1.5  # on an error of second order from two meshes; first order is cautious enough
-_LARGEST_RATIO = 0.9  # of changes in succession: a series of them must have a sum
+_SAFETY_FACTOR = 1.5  # on a second-order estimate from two meshes; first order is cautious enough
+_LARGEST_RATIO = 0.9  # of successive changes, so that their geometric series converges
 ROUNDING = float(np.sqrt(np.finfo(float).eps))
 """Relative difference up to which two numbers that have been computed count as equal."""
 
 
 def shown_order(counts: Array, steps: Array) -> Array:
-    """Return the order in 1/elements of each error: second, or first if three meshes show it.
+    """Return the order of each error in 1/elements: second, or first if the meshes show that.
 
-    They show first order where unlike surfaces stick up to an edge: the last change is larger than
-    second order predicts from the one before.
+    They show it where the last change is larger than second order predicts from the one before, as
+    where unlike surfaces stick up to an edge.
 
     Parameters
     ----------
@@ -32,15 +32,15 @@ def shown_order(counts: Array, steps: Array) -> Array:
 
 
 def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:
-    """Return the errors on the finest of some meshes, (n,).
+    """Return the estimated errors of the figures on the finest mesh, (n,).
 
-    Two meshes may agree by chance, so earlier changes count too, reduced by the second order.
+    Two meshes may agree by chance, so earlier changes count too, scaled down by second order.
 
     Parameters
     ----------
     counts : (s,) elements of two meshes or more, coarsest first.
     values : (s, n) figures on them.
-    order : (n,) of the errors, for the last change.
+    order : (n,) order of the errors, applied to the last change.
     """
     steps = np.abs(np.diff(values, axis=0))
     second = np.full(order.size, 2.0)
@@ -52,13 +52,16 @@ def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:
 
 
 def share_left(counts: Array, order: Array) -> Array:
-    """Return the error of the finer of two meshes over the difference of the two."""
+    """Return the error on the finer of two meshes, divided by their difference; with safety."""
     safety = np.where(order > 1.0, _SAFETY_FACTOR, 1.0)
     return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))
 
 
 def to_come_after(change: float, before: float) -> float:
-    """Return the sum of all changes to come, as a geometric series; inf after the first."""
+    """Return the sum of all changes to come, as a geometric series from the last two.
+
+    ``before`` is inf where there has been a single change; so is the result.
+    """
     if before == inf:
         return inf
     ratio = min(change / before, _LARGEST_RATIO) if before > 0.0 else _LARGEST_RATIO

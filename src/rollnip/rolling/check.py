@@ -1,4 +1,4 @@
-"""The contact conditions evaluated on more points than were solved on."""
+"""The residual of the contact conditions, on more points than they were solved on."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.round import Round, creepage_scale
+from rollnip.rolling.mesh_solution import MeshSolution, creepage_scale
 from rollnip.rolling.surfaces import Array, PairKernels
 
 
 @dataclass(frozen=True, slots=True)
 class PairFields:
-    """Fields of both surfaces at some points, evaluated from the tractions of a solution.
+    """Fields of both surfaces at given points, evaluated from the tractions of a solution.
 
     Attributes
     ----------
-    x : (n,) from trailing to leading [mm].
+    x : (n,) points, from trailing to leading [mm].
     pressure, shear : (n,) [MPa].
     displacements : of both surfaces, each in its own frame [mm].
     gap : (n,) [mm].
@@ -38,14 +38,16 @@ class PairFields:
 
 
 def fields_at(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
 ) -> PairFields:
-    """Evaluate a solution at points ``x`` from nothing but its tractions, delta and xi."""
+    """Return the fields of a solution at ``x``, computed from its tractions, delta and xi alone."""
     return _fields(x, nip, geometry, kernels, final, _displacements(x, kernels, final))
 
 
-def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> PairFields:
-    """Evaluate a solution at the nodes, halfway between them, and some way outside."""
+def fields_between(
+    nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
+) -> PairFields:
+    """Return the fields of a solution at its nodes, halfway between them, and outside the edges."""
     nodes = final.mesh.nodes
     away = places_outside(nodes, final.figures.nip_width)
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
@@ -58,16 +60,16 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
 
 
 def places_outside(nodes: Array, width: float) -> Array:
-    """Return distances from the edges where overlap is looked for, one in each octave [mm].
+    """Return the distances outside the edges at which overlap is checked, one per octave [mm].
 
-    They run from the nip width ``width`` down to the length of the shorter element at an edge;
-    ``nodes``: of the mesh, one beyond either edge.
+    They range from the nip width ``width`` down to the length of the shorter edge element.
+    ``nodes``: of the mesh, with one beyond either edge.
     """
     shortest = min(nodes[2] - nodes[1], nodes[-2] - nodes[-3])
     return np.asarray(width * 0.5 ** np.arange(np.log2(width / shortest))[::-1])
 
 
-def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
+def _displacements(x: Array, kernels: PairKernels, final: MeshSolution) -> Displacements:
     """Return the displacements of both surfaces at ``x``, to the order of the model."""
     linear = final.mesh.linear_displacements_at(x, final.state)
     if kernels.is_linear:
@@ -83,7 +85,7 @@ def _fields(
     nip: Nip,
     geometry: Geometry,
     kernels: PairKernels,
-    final: Round,
+    final: MeshSolution,
     u: Displacements,
 ) -> PairFields:
     state, flat, held = final.state, u, kernels.held
@@ -101,19 +103,20 @@ def _fields(
 
 
 def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
-    """Return the distance of the deformed surfaces, before the approach is taken off."""
+    """Return the gap between the deformed surfaces before the approach is subtracted [mm]."""
     upper, lower = surface_depths(x, nip, geometry, u)
     return upper + lower
 
 
-def residual(nip: Nip, fields: PairFields, final: Round, shortest: float) -> float:
+def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
-    The parts are: penetration and p times gap over the approach, tension over the peak pressure,
-    shear beyond the traction bound, drift of sticking surfaces over |xi| times the nip width, slip
-    with its own shear, errors of load and traction. The shear counts further than ``shortest`` from
-    the ends of zones [mm]: zones that short are left out, and stick without them has an infinite
-    shear at its end.
+    It is the largest of: penetration over the approach; p times gap over peak pressure and
+    approach; tension over the peak pressure; shear beyond the traction bound; drift of sticking
+    surfaces over |xi| times the nip width; slip in the direction of its own shear; errors of load
+    and traction. The traction bound is not checked within ``shortest`` [mm] of the ends of zones:
+    slip zones shorter than that are left out, and stick without them has an infinite shear at its
+    end.
     """
     figures = final.figures
     peak = figures.peak_pressure
@@ -130,18 +133,23 @@ def residual(nip: Nip, fields: PairFields, final: Round, shortest: float) -> flo
 
 
 def _depth(nip: Nip, width: float, approach: float) -> float:
-    """Return the scale of a penetration: the approach, or the depth of the gap at the edge."""
+    """Return the length that penetration is relative to [mm].
+
+    It is the approach or, if larger or for a half-space, the undeformed clearance at the edge.
+    """
     at_edge = 0.125 * nip.curvature * width**2
     return at_edge if nip.has_half_space else max(abs(approach), at_edge)
 
 
-def _load_error(nip: Nip, final: Round) -> float:
+def _load_error(nip: Nip, final: MeshSolution) -> float:
     if isinstance(nip.normal, LineLoad):
         return abs(final.figures.load - nip.normal.load) / nip.normal.load
     return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
 
 
-def _friction_errors(nip: Nip, fields: PairFields, final: Round, shortest: float) -> list[float]:
+def _friction_errors(
+    nip: Nip, fields: PairFields, final: MeshSolution, shortest: float
+) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
     over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
@@ -165,13 +173,13 @@ def _friction_errors(nip: Nip, fields: PairFields, final: Round, shortest: float
 
 
 def _intervals_in(x: Array, zone: ContactZone) -> slice:
-    """Return the intervals between ``x`` that lie wholly in a zone."""
+    """Return the intervals between ``x`` that lie entirely in a zone."""
     first, beyond = x.searchsorted(zone.start), x.searchsorted(zone.stop, side="right")
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
-def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
-    """Return the largest strain of either surface in the contact, as a mean over an element."""
+def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: MeshSolution) -> float:
+    """Return the largest strain of either surface in the contact, averaged over each interval."""
     x = final.nodes[1:]
     u = final.mesh.finer(final.displacements)
     touching = final.pressure > 0.0

@@ -1,7 +1,7 @@
-"""The errors that a solution claims.
+"""The claimed errors of the figures of a solution.
 
-The claimed error is the larger of two: the error of the mesh, and the error that the geometry model
-leaves however fine the mesh.
+A claimed error is the larger of two: the estimated discretisation error, and the error that the
+geometry model leaves however fine the mesh.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from rollnip.contact.coupled import solve_states
 from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rolling.further import further_of, further_sizes
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
 from rollnip.rolling.power_balance import Powers, rates_of
-from rollnip.rolling.round import Figures, Further, Round, creepage_scale
+from rollnip.rolling.secondary import secondary_figures_of, secondary_sizes
 
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Relative change of these figures between grids of 12 to 32 points a half-width in "second",
@@ -29,31 +29,32 @@ MODEL_SHARES: Mapping[Geometry, Mapping[str, float]] = {
     "second": dict(zip(_NAMES, (1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3), strict=True)),
     "finite": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
 }
-# Error of a peak of pressure that lies within the thickness of a stiff skin from an edge: the
-# largest of the finite-element results with such peaks is 15 % ("second"), 1.2 % ("finite", known
-# to 1.2 %), and 2 % in "finite" where the mesh leaves more open than that. Where friction grips the
-# skin the zones beside an edge are shorter than it is thick: of 50 solutions of figure 4 with
-# 0.025 mm that differ by rounding or loads one is 6.4 % off the others, six more than 3 %.
+# Relative error of a pressure peak that is closer to an edge than a stiff skin is thick. Against
+# finite elements the largest is 15 % in "second", 1.2 % in "finite" (known to 1.2 %), and 2 % in
+# "finite" where the mesh itself leaves more than that. Where friction grips the skin, the zones
+# beside an edge are shorter than it is thick: of 50 solutions of figure 4 with 0.025 mm that differ
+# by rounding or loads, one is 6.4 % off the others, and six more than 3 %.
 SHARE_OF_EDGE_PEAK: Mapping[str, float] = {"second": 0.15, "finite": 0.02, "gripped": 0.07}
-# Likewise for `Further`, over `further_sizes`, and for the place of the peak (decision 41).
-_FURTHER_SHARE, _SHARE_OF_PEAK_PLACE = 3.5e-3, 7e-3
+# Model errors of `SecondaryFigures`, over `secondary_sizes`, and of the place of the peak, over the
+# nip width (decision 41).
+_SECONDARY_SHARE, _SHARE_OF_PEAK_PLACE = 3.5e-3, 7e-3
 SHARE_OF_CUT = 0.3
-"""What the short waves that "finite" cuts out of its correction leave open, over what they change.
+"""Error due to the short waves that "finite" cuts from its correction, over what they change.
 
 The approach of a covering of 0.3 mm that is driven with half of its load is off by 0.28 of the
-violation of the contact conditions by these waves (decision 38), and the friction loss of
-configuration II, driven with frictions of 2 to 4, by 0.2 of what they change of it.
+violation of the contact conditions by these waves (decision 38); the friction loss of configuration
+II, driven with frictions of 2 to 4, by 0.2 of what they change of it.
 """
-# Error of the approach over the violation of the contact conditions, which "finite" leaves where
-# its correction has changed last: 0.56 to 0.6 under the skin of figure 4 with 0.26 mm.
+# Error of the approach over the violation of the contact conditions that "finite" leaves when its
+# correction last changes: 0.56 to 0.6 under the skin of figure 4 with 0.26 mm.
 _SHARE_OF_RESIDUAL = 0.7
 
 
-def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
-    """Return the claimed errors of the figures that the tolerance is for, each in its own unit.
+def claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+    """Return the claimed errors of the figures held to the tolerance, each in its own unit.
 
-    The error of a prescribed figure is its distance from the prescribed value; nan where not
-    defined.
+    The error of a prescribed figure is its deviation from the prescribed value. An error is nan
+    where the figure is not defined.
     """
     figures = final.figures
     out = {name: getattr(final.error, name) for name in _NAMES}
@@ -75,39 +76,41 @@ def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
     return out
 
 
-def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) -> dict[str, float]:
-    """Return the claimed errors of all other figures, each in its own unit; nan where not defined.
+def secondary_claims(
+    nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
+) -> dict[str, float]:
+    """Return the claimed errors of the figures without a tolerance of their own, in their units.
 
-    These figures have no tolerance of their own. ``spent`` is the `powers` of the solution.
+    They are nan where a figure is not defined. ``spent``: the `powers` of the solution.
     """
-    further = final.further_error or Further(*(inf,) * 8)
-    further = _with_model(further, nip, geometry, final, spent)
+    errors = final.secondary_error or SecondaryFigures(*(inf,) * 8)
+    errors = _with_model(errors, nip, geometry, final, spent)
     speed = nan if nip.speed is None else nip.speed
     load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
-    lost = _lost(further, spent, nip, geometry, final)
+    lost = _lost(errors, spent, nip, geometry, final)
     first, cut = claims(nip, geometry, final), SHARE_OF_CUT * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
         passed = abs(float(final.problem.weights @ final.state.shear))
         cut = largest(cut, power_left(first["creepage"], passed, final))
-    # In equilibrium a torque is the moment of the tractions; it is at finite strain alone.
+    # In equilibrium a torque equals the moment of the tractions; only "finite" is in equilibrium.
     off_upper = off_lower = 0.0
     if geometry == "finite":
         off_upper = abs(spent.driving_upper - spent.moment_upper)
         off_lower = abs(spent.driving_lower - spent.moment_lower)
-    slip = largest(further.friction, cut, spent.reversed_slip, off_upper, off_lower)
+    slip = largest(errors.friction, cut, spent.reversed_slip, off_upper, off_lower)
     out = {
-        "traction": further.traction,
-        "torque_upper": nip.upper.radius * largest(further.driving_upper, cut, off_upper),
-        "torque_lower": nip.lower.radius * largest(further.driving_lower, cut, off_lower),
+        "traction": errors.traction,
+        "torque_upper": nip.upper.radius * largest(errors.driving_upper, cut, off_upper),
+        "torque_lower": nip.lower.radius * largest(errors.driving_lower, cut, off_lower),
         "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
         "rolling_resistance": lost / load,
-        "peak_pressure_x": further.peak_pressure_x,
+        "peak_pressure_x": errors.peak_pressure_x,
     }
     length = sum(stop - start for start, stop in contact_intervals(final.zones))
-    # What the model leaves of the width it leaves of the length in contact.
-    shortened = largest(further.contact_length, first["nip_width"]) / length
+    # The model error of the width is taken for that of the length in contact, too.
+    shortened = largest(errors.contact_length, first["nip_width"]) / length
     out["mean_pressure"] = load / length * (shortened + first["load"] / load)
     out["dwell_time"] = first["nip_width"] / speed
     out["speed_ratio"] = first["creepage"] / (1.0 - half) ** 2
@@ -130,25 +133,25 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     return out
 
 
-def traction_slope(final: Round) -> float:
-    """Return how fast the traction grows with the creepage, where the same nodes stick [N/mm].
+def traction_slope(final: MeshSolution) -> float:
+    """Return the derivative of the traction by the creepage, with the same nodes in stick [N/mm].
 
-    An error of the creepage at a given traction is one of the traction at a given creepage.
+    It turns an error of the creepage at given traction into one of the traction at given creepage.
     """
     problem, state = final.problem, final.state
     tractions = []
-    for creepage in (0.0, 1.0):  # the tractions are linear in it
+    for creepage in (0.0, 1.0):  # the traction is linear in it
         control = replace(problem.control, creepage=creepage, traction=None)
         shear = solve_states(replace(problem, control=control), state.states).shear
         tractions.append(float(problem.weights @ shear))
     return abs(tractions[1] - tractions[0])
 
 
-def power_left(creepage: float, traction: float, final: Round) -> float:
-    """Return what the error of the creepage and open or overlapping surfaces spend, over V [N/mm].
+def power_left(creepage: float, traction: float, final: MeshSolution) -> float:
+    """Return the power due to the error of the creepage and to the residual gap, over V [N/mm].
 
-    The traction passes the creepage's power on, and the pressure that of a gap which grows by a
-    share of the approach over the width.
+    The traction works on the error of the creepage, and the pressure on a gap or overlap that
+    grows by the residual times the approach over the nip width.
     """
     figures = final.figures
     open_gap = final.residual * abs(figures.approach) / figures.nip_width
@@ -156,33 +159,36 @@ def power_left(creepage: float, traction: float, final: Round) -> float:
 
 
 def _with_model(
-    further: Further, nip: Nip, geometry: Geometry, final: Round, spent: Powers
-) -> Further:
-    """Return the errors, none of them less than that of the geometry model."""
-    if geometry not in FINITE or final.further_error is None:
-        return further
-    figures = further_of(spent, final)
-    left = _FURTHER_SHARE * further_sizes(nip, final, figures)
+    errors: SecondaryFigures, nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
+) -> SecondaryFigures:
+    """Return the errors, raised to those of the geometry model where these are larger."""
+    if geometry not in FINITE or final.secondary_error is None:
+        return errors
+    figures = secondary_figures_of(spent, final)
+    left = _SECONDARY_SHARE * secondary_sizes(nip, final, figures)
     left[-1] = _SHARE_OF_PEAK_PLACE * final.figures.nip_width
-    return Further(*np.maximum(further.array(), left).tolist())
+    return SecondaryFigures(*np.maximum(errors.array(), left).tolist())
 
 
-def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: Round) -> float:
-    """Return the error of the viscous loss over V [N/mm]."""
+def _lost(
+    errors: SecondaryFigures, spent: Powers, nip: Nip, geometry: Geometry, final: MeshSolution
+) -> float:
+    """Return the error of the viscous loss, over V [N/mm]."""
     rates = rates_of(geometry, final.state.creepage)
-    error = rates[0] * further.lost_upper + rates[1] * further.lost_lower
+    error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
     creepage = claims(nip, geometry, final)["creepage"]
     if rates == (1.0, 1.0) or isnan(creepage):
         return error
     return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
 
 
-def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
-    """Return the relative errors of figures that a geometry model leaves, however fine the mesh.
+def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+    """Return the relative errors of figures that the geometry model leaves, however fine the mesh.
 
-    Of a violation of the contact conditions a part goes into the approach and the peak; twice as
-    much into a load at a given approach, which goes as its square, about; and up to all of it into
-    the width and the creepage: what is cut, and what the last correction leaves.
+    Violations of the contact conditions come from the waves cut and from the last change of the
+    correction. Part of a violation shows up as an error of the approach and the peak; twice that
+    part as an error of the load at a given approach, of which it is about the square; and up to all
+    of it as errors of the width and the creepage.
     """
     if geometry not in FINITE:
         return dict.fromkeys(_NAMES, 0.0)
@@ -199,10 +205,10 @@ def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]
     return shares
 
 
-def _peaks_at_edge(nip: Nip, final: Round) -> bool:
-    """Return whether the pressure is largest beside an edge, within the thickness of a stiff skin.
+def _peaks_at_edge(nip: Nip, final: MeshSolution) -> bool:
+    """Return whether the pressure peak is closer to an edge than a stiff skin is thick.
 
-    The fields there are as short as the skin is thick.
+    Fields there vary over lengths as short as that thickness.
     """
     if not final.zones:
         return False
@@ -212,10 +218,10 @@ def _peaks_at_edge(nip: Nip, final: Round) -> bool:
     return bool(to_edge < min(skin_thickness(nip), 0.25 * (stop - start)))
 
 
-def _is_peak_unresolved(final: Round) -> bool:
-    """Return whether the pressure is largest beside an edge, where it should go to 0.
+def _is_peak_unresolved(final: MeshSolution) -> bool:
+    """Return whether the pressure is largest right at an edge, where it should vanish.
 
-    There an edge is misplaced, or the peak lies between nodes: its height is not known.
+    Then the edge is misplaced, or the peak lies between nodes, so that its height is not known.
     """
     if final.is_placed:
         return final.mesh.peaks_at_edge(final.state.pressure)
@@ -224,7 +230,10 @@ def _is_peak_unresolved(final: Round) -> bool:
 
 
 def skin_thickness(nip: Nip) -> float:
-    """Return the thickness of the thicker top layer that is stiffer than what it covers [mm]."""
+    """Return the thickness of the thicker stiff skin, 0 if there is none [mm].
+
+    A stiff skin is a top layer that is stiffer than the layer below it.
+    """
     tops = [
         roller.layers[0].thickness
         for roller in (nip.upper, nip.lower)
@@ -235,12 +244,12 @@ def skin_thickness(nip: Nip) -> float:
 
 
 def grips_skin(nip: Nip) -> bool:
-    """Return whether surfaces with friction have a stiff skin, which answers stretch with shear."""
+    """Return whether there is friction on a stiff skin, so that stretch causes large shear."""
     return nip.friction > 0.0 and has_stiff_skin((nip.upper, nip.lower))
 
 
 def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:
-    """Return the sizes that errors are relative to; that of a creepage never goes through zero."""
+    """Return the sizes that errors are relative to; that of the creepage is never zero."""
     return {
         "approach": abs(figures.approach),
         "load": figures.load,
@@ -250,8 +259,8 @@ def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:
     }
 
 
-def relative_claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
-    """Return the claimed errors over the sizes of their figures, where these are defined."""
+def relative_claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+    """Return the claimed errors over the sizes of their figures, for figures that are defined."""
     figures, claimed = final.figures, claims(nip, geometry, final)
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return {}

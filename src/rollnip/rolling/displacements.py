@@ -1,4 +1,4 @@
-"""Displacements of both surfaces, at points and as functions of the place."""
+"""Displacements of both surfaces, at points and as functions of x."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ Array = NDArray[np.float64]
 
 
 class Field(Protocol):
-    """A function of the place x."""
+    """A function of x."""
 
     def __call__(self, x: Array, order: int = 0) -> Array:
-        """Value at ``x``, or with ``order`` 1 the derivative."""
+        """Return the value at ``x``, or with ``order`` 1 the derivative."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class WeightedSum:
-    """A function of the place that is a sum of others, each times its weight."""
+    """A function of x that is a weighted sum of others."""
 
     weights: tuple[float, ...]
     functions: tuple[Field, ...]
 
     def __call__(self, x: Array, order: int = 0) -> Array:
-        """Value at ``x``, or with ``order`` 1 the derivative."""
+        """Return the value at ``x``, or with ``order`` 1 the derivative."""
         both = zip(self.weights, self.functions, strict=True)
         return np.asarray(sum(weight * f(x, order) for weight, f in both))
 
@@ -80,7 +80,7 @@ class Displacements:
 
     @classmethod
     def under(cls, made: Array) -> Displacements:
-        """Return the displacements under a solution's tractions: (q, p) above and (-q, p) below.
+        """Return the displacements due to tractions (q, p) on the upper, (-q, p) on the lower.
 
         ``made``, (6, n, 2): the displacements by p and by q, for each function of
         `pair_displacements`.
@@ -96,11 +96,12 @@ class Displacements:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Stretch of a surface beyond the linear one, integrated along the place x.
+    """Stretch of a surface beyond the linear one, integrated over x.
 
     Attributes
     ----------
-    parts : weights and splines whose sum it is [mm]; beyond their points these go on straight.
+    parts : weights and splines of a weighted sum [mm]; beyond their points splines are continued
+        linearly.
     """
 
     parts: tuple[tuple[float, Spline], ...] = ()
@@ -121,14 +122,15 @@ class SecondFields:
     Attributes
     ----------
     functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
-    ends : the places between which they hold [mm]; beyond they keep their last value.
-    lost : heat inside the upper and the lower roller beyond that of linear theory, per distance
-        [N/mm].
-    rough : the functions before waves were cut that no contact follows; empty: none were.
+    ends : the interval on which each is defined [mm]; beyond it keeps its last value.
+    lost : viscous loss in the upper and the lower roller beyond that of linear theory, per distance
+        rolled [N/mm].
+    rough : the functions before short waves were cut that a contact cannot follow; empty if none
+        were.
     bodies : equilibria of the upper and the lower roller; None where there are none.
     share : of the wave numbers that are kept as a rule.
-    stretch : of the upper and the lower surface beyond the linear one, to use whatever the
-        tractions; None: that of the displacements.
+    stretch : of the upper and the lower surface beyond the linear one, used whatever the tractions;
+        None: that of the displacements.
     """
 
     functions: tuple[Field | None, ...] = (None,) * 4
@@ -141,11 +143,11 @@ class SecondFields:
 
     @property
     def uncut(self) -> SecondFields:
-        """Return the fields with the waves that were cut."""
+        """Return the fields including the waves that were cut."""
         return replace(self, functions=self.rough or self.functions)
 
     def at(self, x: Array, order: int = 0) -> Displacements:
-        """Return the displacements at some places, or with ``order`` 1 their derivatives by x."""
+        """Return the displacements at ``x``, or with ``order`` 1 their derivatives by x."""
         four = np.zeros((4, x.size))
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
@@ -154,7 +156,7 @@ class SecondFields:
         return Displacements(four)
 
     def of_side(self, side: int) -> SecondFields:
-        """Return the displacements of the upper (0) or lower (1) surface; the other stays."""
+        """Return the fields of the upper (0) or lower (1) surface alone, with 0 for the other."""
         functions, rough = (
             tuple(f if i // 2 == side else None for i, f in enumerate(four))
             for four in (self.functions, self.rough)

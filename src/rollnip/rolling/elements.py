@@ -16,8 +16,8 @@ from rollnip.rollers import Roller
 from rollnip.rolling.assemble import stretch_excess
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.displacements import Field, SecondFields, Stretch
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.power_balance import rates_of
-from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ class AllOrders:
         return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), share)
 
     def beyond(
-        self, latest: Round, kernels: PairKernels, *, roughly: bool
+        self, latest: MeshSolution, kernels: PairKernels, *, roughly: bool
     ) -> tuple[SecondFields, bool]:
         """Return what all orders add to the linear displacements of a bare nip, see `under`.
 
@@ -146,7 +146,7 @@ class AllOrders:
 
 
 def _stretch_beyond(
-    nip: Nip, kernels: PairKernels, side: int, made: SecondFields, latest: Round
+    nip: Nip, kernels: PairKernels, side: int, made: SecondFields, latest: MeshSolution
 ) -> Stretch:
     """Return the stretch of a surface beyond the linear one under the tractions of a contact.
 

@@ -1,4 +1,4 @@
-"""Estimated errors of the figures, from their changes between sizes of mesh."""
+"""Estimated discretisation errors of the figures, from their changes between mesh sizes."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
-from rollnip.rolling.further import further_errors, further_figures, further_sizes
-from rollnip.rolling.round import Figures, Further, Round, creepage_scale
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
+from rollnip.rolling.secondary import secondary_errors, secondary_figures, secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
-# Order of the errors, from two sizes.
+# Order assumed for the errors while there are only two sizes.
 _ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
 # Least relative error of each of Figures, times the square of the number of elements: measured on
-# random nips against ten times as many elements. They are of higher order where tractions go as a
-# square root at every end; where unlike surfaces stick up to an edge they do not, the edge is
+# random nips against ten times as many elements. Errors are of higher order where tractions vanish
+# as a square root at every end. Where unlike surfaces stick up to an edge they do not: the edge is
 # misplaced by a share of the first element, and the order is 2.
 LEAST_ERROR = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 _CREEPAGE, _WIDTH, _PEAK = (
@@ -32,62 +32,67 @@ _CREEPAGE, _WIDTH, _PEAK = (
 
 
 @dataclass(frozen=True)
-class Size:
-    """Results on one size of mesh.
+class RefinementLevel:
+    """Results at one level of mesh refinement.
 
     Attributes
     ----------
     count : number of elements.
     figures : of the nip.
     breaks : edges and transitions [mm].
-    make_further : evaluates the further figures, which takes long where layers have a memory.
+    make_secondary : evaluates the secondary figures, which is slow for viscoelastic layers.
     """
 
     count: int
     figures: Figures
     breaks: Array
-    make_further: Callable[[], Further]
+    make_secondary: Callable[[], SecondaryFigures]
 
     @property
-    def edge_elements(self) -> float:
-        """Length of the elements at the edges, over that of as many elements in a single zone."""
+    def edge_element_ratio(self) -> float:
+        """Length of the edge elements, over that with as many elements in a single zone."""
         lengths = np.diff(self.breaks)
         return float(np.sqrt(lengths).sum() ** 2 / lengths.sum())
 
     @cached_property
-    def further(self) -> Further:
-        """Further figures."""
-        return self.make_further()
+    def secondary(self) -> SecondaryFigures:
+        """SecondaryFigures figures, evaluated on first use."""
+        return self.make_secondary()
 
 
-def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
-    """Return the results of a round on a mesh of ``count`` elements."""
-    further = partial(further_figures, nip, model.geometry, latest)
-    return Size(count, latest.figures, breaks, further)
+def refinement_level(
+    nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array
+) -> RefinementLevel:
+    """Return the results of the solution on a mesh of ``count`` elements."""
+    make_secondary = partial(secondary_figures, nip, model.geometry, latest)
+    return RefinementLevel(count, latest.figures, breaks, make_secondary)
 
 
-def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | None) -> Round:
-    """Return the round with the estimated errors of the figures that the tolerance is for.
+def with_errors(
+    nip: Nip, latest: MeshSolution, history: list[RefinementLevel], end_error: Figures | None
+) -> MeshSolution:
+    """Return the solution with the estimated errors of the figures held to the tolerance.
 
-    They are those of the mesh, what the ends of zones may still change (``left``), and what memory
-    does within their elements: two sizes of mesh agree on wrong figures where their ends are
-    misplaced alike, or where the elements of both are too long.
+    An error is the sum of the discretisation error, what the remaining misplacement of ends may
+    change (``end_error``), and the effect of relaxation within an edge element. The changes between
+    mesh sizes do not show the last two: meshes agree on wrong figures if their ends are equally
+    misplaced, or if the elements of all are too long.
     """
     figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
-    # Edges are misplaced by that much. A creepage at a given traction goes as the square of the
+    # Edges are misplaced by that much. The creepage at a given traction varies as the square of the
     # width, as the load does. Approach, load and peak pressure depend on edges to second order.
     creepage = 0.0
     if not isinstance(nip.tangential, Creepage):
         creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(nip, latest, history).array() + unseen
-    if left is not None:
-        error += left.array()
+    if end_error is not None:
+        error += end_error.array()
     return replace(latest, error=Figures(*error.tolist()))
 
 
 def edge_within_memory(nip: Nip, mesh: Mesh) -> float:
-    """Return the error of edges from a memory that is shorter than the elements there [mm]."""
+    """Return the error of edges due to relaxation within the elements there [mm]."""
     if not nip.is_viscoelastic:
         return 0.0
     last = np.cumsum(mesh.fine.elements) - 1
@@ -96,11 +101,11 @@ def edge_within_memory(nip: Nip, mesh: Mesh) -> float:
 
 
 def lag_within(length: float, roller: Roller, speed: float | None) -> float:
-    """Return how far the stress of a surface lags behind its strain within a length h [mm].
+    """Return by how much the stress of a surface lags behind its strain over a length h [mm].
 
-    A stress that has been int E(t) de(t) since the material came in equals, to first order, E(h/V)
-    times the strain that was there V int (E(t)/E(h/V) - 1) dt before, with t up to h/V. It is 0
-    both where nothing relaxes within h and where h is rolled in no time.
+    The stress int E(t) de(t) since the material entered equals, to first order, E(h/V) times the
+    strain a distance V int (E(t)/E(h/V) - 1) dt earlier, with t up to h/V. That lag is 0 both if
+    nothing relaxes within h and if h is passed in no time.
     """
     if roller.is_rigid or speed is None or not roller.materials[0].relaxation_times:
         return 0.0
@@ -109,47 +114,51 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
     return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
-def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
-    """Return the round with the estimated errors of the further figures, made when asked for."""
-    make = partial(_further_error, nip, latest, tuple(history))
-    return replace(latest, make_further_error=make)
+def with_secondary_errors(
+    nip: Nip, latest: MeshSolution, history: list[RefinementLevel]
+) -> MeshSolution:
+    """Return the solution with its estimated errors of the secondary figures, made on demand."""
+    make = partial(_secondary_error, nip, latest, tuple(history))
+    return replace(latest, make_secondary_error=make)
 
 
-def _further_error(nip: Nip, latest: Round, history: Sequence[Size]) -> Further | None:
-    """Return the estimated errors of the further figures; None where there is a single mesh.
+def _secondary_error(
+    nip: Nip, latest: MeshSolution, history: Sequence[RefinementLevel]
+) -> SecondaryFigures | None:
+    """Return the estimated errors of the secondary figures; None where there is a single mesh.
 
-    Edges that are misplaced as in `with_errors` change tractions by twice that over the width, and
-    with them what is handed on and lost, which is quadratic in them; the length by one at either
-    edge.
+    Edges misplaced as in `with_errors` change tractions by twice the misplacement over the width,
+    and with them the powers, which are quadratic in them. They change the length in contact by one
+    misplacement at either edge.
     """
-    sizes = [(size.count, size.further) for size in history]
-    error = further_errors(nip, latest, sizes)
+    sizes = [(level.count, level.secondary) for level in history]
+    error = secondary_errors(nip, latest, sizes)
     if error is None:
         return None
     share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
-    more = share * further_sizes(nip, latest, history[-1].further)
-    return Further(*(error.array() + more).tolist())
+    more = share * secondary_sizes(nip, latest, history[-1].secondary)
+    return SecondaryFigures(*(error.array() + more).tolist())
 
 
-def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
-    """Return the estimated error of each figure from its changes between meshes (second order).
+def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLevel]) -> Figures:
+    """Return the estimated discretisation error of each figure from its changes between meshes.
 
-    Two meshes may agree by chance. So earlier changes count too, reduced by the order; no error is
-    claimed below the least error of meshes of this size in random nips.
+    It is inf where there is a single mesh. No error is estimated below the least error that meshes
+    of this size have on random nips (`LEAST_ERROR`), as meshes may agree by chance.
 
     Parameters
     ----------
     latest : the solution on the last of the meshes.
-    history : all sizes of mesh with these zones, coarsest first.
+    history : all mesh sizes with these zones, coarsest first.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
-    counts = np.array([size.count for size in history], dtype=float)
-    values = np.array([size.figures.array() for size in history])
-    values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes do not see peaks under a stiff skin
-    # The creepage depends most on an edge up to which unlike surfaces stick; from two sizes alone,
-    # which show no order, its order is taken as first.
+    counts = np.array([level.count for level in history], dtype=float)
+    values = np.array([level.figures.array() for level in history])
+    values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes miss the peaks under a stiff skin
+    # Two sizes show no order. The creepage is taken as first order, as it depends most on edges up
+    # to which unlike surfaces stick.
     order = (
         _ORDER_FROM_TWO_SIZES if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
     )
@@ -157,26 +166,26 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = LEAST_ERROR * scales / count**2
-    floor[_WIDTH] *= history[-1].edge_elements
+    floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 
 
-def zone_excess(history: list[Size], tolerance: float) -> float:
-    """Return the largest estimated error of a zone's length, over the allowed one.
+def zone_error_ratio(history: list[RefinementLevel], tolerance: float) -> float:
+    """Return the largest estimated error of a zone's length, over the allowed error.
 
-    Allowed is three times the tolerance of the length, or of a twentieth of the nip for shorter
-    zones.
+    Allowed is three times the tolerance, times the length of the zone or a twentieth of the width
+    if that is more.
     """
     if len(history) < 2:
         return 0.0
     coarse, fine = history[-2:]
     share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))
-    return float(share) * length_excess(coarse.breaks, fine.breaks, tolerance)
+    return float(share) * length_change_ratio(coarse.breaks, fine.breaks, tolerance)
 
 
-def length_excess(before: Array, after: Array, tolerance: float) -> float:
-    """Return the largest change of a zone's length, over what `zone_excess` allows."""
+def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
+    """Return the largest change of a zone's length, over what `zone_error_ratio` allows."""
     lengths = np.diff(after)
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
     return float(np.max(np.abs(lengths - np.diff(before)) / allowed))

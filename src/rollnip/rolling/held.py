@@ -22,8 +22,9 @@ from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
-from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
-from rollnip.rolling.iterations import STILL, solve_on_mesh
+from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
+from rollnip.rolling.iterations import NEGLIGIBLE, solve_on_mesh
+from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
@@ -31,10 +32,9 @@ from rollnip.rolling.refinement import (
     IsTooDeep,
     by_nodes,
     finer_by_nodes,
-    placed,
+    free_ends_from_nodes,
     refine,
 )
-from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState
 from rollnip.rolling.surfaces import PairKernels
 
@@ -81,7 +81,7 @@ def begin(
     half_width: float,
     second: Responses | None = None,
     is_too_deep: IsTooDeep | None = None,
-) -> tuple[PairKernels, Round, Stage]:
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
 
     And the influence functions with the correction that it holds: that of ``kernels`` or, with
@@ -106,18 +106,18 @@ def begin(
                 held, before = _holding_second_order(nip, model, second(), located)
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = Placing(nip, coarse_model, held).placed(start, _COARSE, known=False)
+                found = Placing(nip, coarse_model, held).solve(start, _COARSE, zones_known=False)
                 if found is not None:
                     return held, found.before, Stage.COARSE
-    refined = placed(nip, model, kernels, located) if located.settled else None
+    refined = free_ends_from_nodes(nip, model, kernels, located) if located.settled else None
     if is_verified(refined, model):
         return kernels, refined, Stage.REFINED
     return kernels, located, Stage.COARSE
 
 
 def refined_at_once(
-    nip: Nip, model: Model, second: PairKernels, coarse: Round
-) -> tuple[PairKernels, Round, Stage]:
+    nip: Nip, model: Model, second: PairKernels, coarse: MeshSolution
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Return a refined contact that holds the second order of a coarse one, and what holds it.
 
     The coarse one itself where the ends of zones are not found on finer meshes.
@@ -130,8 +130,8 @@ def refined_at_once(
 
 
 def _holding_second_order(
-    nip: Nip, model: Model, second: PairKernels, latest: Round
-) -> tuple[PairKernels, Round]:
+    nip: Nip, model: Model, second: PairKernels, latest: MeshSolution
+) -> tuple[PairKernels, MeshSolution]:
     """Return influence functions that hold the second order of a solution, and it with them.
 
     Of its waves those are left out that are too short at the strain of the solution.
@@ -149,8 +149,13 @@ def _holding_second_order(
 
 
 def solved_next(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, progress: Progress
-) -> tuple[Round, Stage]:
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    latest: MeshSolution,
+    stage: Stage,
+    progress: Progress,
+) -> tuple[MeshSolution, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
     Where that fails the round has not settled; but nodes of a first mesh go on there until the
@@ -163,7 +168,7 @@ def solved_next(
     return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 
-def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
+def _enough_for_better(model: Model, latest: MeshSolution, stage: Stage) -> float:
     """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
     if stage is Stage.REFINED:
         return -inf
@@ -175,14 +180,14 @@ def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
 
 
 def _better(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage
-) -> tuple[Round, Stage]:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: Stage
+) -> tuple[MeshSolution, Stage]:
     """Solve on better meshes, with a correction that is held and nearly right."""
     if latest.is_placed:
         found = _refined(nip, model, kernels, latest)
         return found, Stage.REFINED if found.is_placed else Stage.FINE
-    ready = placed(nip, model, kernels, latest) if stage is Stage.FINE else None
-    if ready is not None and excess(nip, ready, model.tolerance) <= 1.0:
+    ready = free_ends_from_nodes(nip, model, kernels, latest) if stage is Stage.FINE else None
+    if ready is not None and error_ratio(nip, ready, model.tolerance) <= 1.0:
         return ready, Stage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)
     if finer is None and ready is not None:
@@ -195,13 +200,15 @@ def coarsely(model: Model) -> Model:
     return replace(model, tolerance=max(model.tolerance, _COARSELY))
 
 
-def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution) -> MeshSolution:
     """Refine a solution with free ends on a coarse mesh, with a correction that is held."""
     found = _with_free_ends(nip, model, kernels, latest)
     return found or refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
-def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round | None:
+def _with_free_ends(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution | None:
     """Return a verified solution with about the zones of a coarse one; None: there is none."""
     layout = Layout.of(latest.zones)
     if layout is None:
@@ -211,8 +218,8 @@ def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round)
 
 
 def restarted(
-    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round
-) -> tuple[PairKernels, Round, Stage]:
+    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: MeshSolution
+) -> tuple[PairKernels, MeshSolution, Stage]:
     """Begin again: with a mean of corrections or, if it leads astray, the last one."""
     half_width = 0.5 * latest.figures.nip_width
     for kernels in both if both[0].held is not both[1].held else both[:1]:
@@ -223,8 +230,8 @@ def restarted(
 
 
 def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
-) -> Round:
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: Stage, change: float
+) -> MeshSolution:
     """Solve with another correction; where that fails the round has not settled."""
     if not latest.is_placed:
         if change > NEAR_ENOUGH:
@@ -232,14 +239,16 @@ def _solved_again(
             *_, found = by_nodes(nip, model, kernels, half_width, COARSE_SIZES)
             return found
         start = latest.state.states, latest.second, latest.steps
-        found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
+        found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, NEGLIGIBLE)
     else:
         model_of_stage = coarsely(model) if stage is Stage.COARSE else model
         found = _placed_again(nip, model_of_stage, kernels, latest)
-    return replace(found, error=latest.error, make_further_error=latest.make_further_error)
+    return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
-def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def _placed_again(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution:
     """Solve with another correction, which moves free ends of zones.
 
     These move to where the last solution put them; nodes that crowd at a boundary layer need ends
@@ -252,6 +261,8 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         search = SearchState(layout, replace(latest, second=second), misplacement=_COARSELY)
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
-            found = None if is_crowded else placing.solved_at_moved_ends(search)
-            found = found or placing.placed(search, as_cosines(latest), known=True)
+            found = None if is_crowded else placing.solve_at_moved_ends(search)
+            found = found or placing.solve(
+                search, elements_without_crowding(latest), zones_known=True
+            )
     return replace(latest if found is None else found.before, settled=found is not None)

@@ -1,4 +1,4 @@
-"""The solution on one mesh: iterations of contact and its second-order terms, and the check."""
+"""The solution on one mesh: fixed-point iteration of the second-order terms, and the residual."""
 
 from __future__ import annotations
 
@@ -14,36 +14,36 @@ from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 MOST_ITERATIONS = 40
-# Change of the second-order terms in an iteration, over the tolerance. An iteration reduces their
-# remaining error at least tenfold; a coarse mesh that only looks for zones needs them less
-# accurately.
-STILL = 0.1
-STILL_UNDER_SKIN = 1e-3
+# Share of the tolerance that counts as negligible: such changes of the second-order terms end an
+# iteration, which reduces their remaining error at least tenfold. Under a stiff skin, ends are
+# placed with the second value; a coarse mesh that only looks for zones needs no such accuracy.
+NEGLIGIBLE = 0.1
+NEGLIGIBLE_UNDER_SKIN = 1e-3
 
 
 class Method(Protocol):
-    """A way to solve a contact problem from given states."""
+    """A solver of a contact problem that starts from given states."""
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution, or the last iterate; ``settled`` tells which."""
+        """Return the solution, or the last iterate with ``settled`` false."""
         ...
 
 
-def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Return influence functions with the second order of the mesh before; at first without any.
+def holding(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
+    """Return influence functions that hold the second order of the previous mesh; none at first.
 
-    The second order is small and smooth: a few updates are enough, and the last mesh is checked
-    with its own.
+    The second order is small and smooth, so a few updates are enough. The last mesh is checked with
+    its own.
     """
     return held_from(kernels, before if before is not None and before.settled else None)
 
 
-def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Return influence functions with the second order of a solution, if they model it."""
+def held_from(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
+    """Return influence functions that hold the second order of a solution, if they model it."""
     if kernels.is_fixed:
         return kernels
     if before is None:
@@ -57,13 +57,17 @@ def solve_on_mesh(
     mesh: Mesh,
     start: tuple[States, SecondOrder, int],
     method: Method,
-    still: float,
+    settled_change: float,
     zones: tuple[ContactZone, ...] | None = None,
-) -> Round:
-    """Solve on one mesh by iteration, until the second-order terms change by so many tolerances.
+) -> MeshSolution:
+    """Return the solution on one mesh, by fixed-point iteration of the second-order terms.
 
-    ``start`` holds states, second-order terms and the steps taken before; ``zones`` those of the
-    solution where they are known.
+    Parameters
+    ----------
+    start : states, second-order terms, and the number of linear systems solved before.
+    method : solver for given second-order terms.
+    settled_change : change of the second-order terms at which to stop, over the tolerance.
+    zones : of the solution; None: derive them from it.
     """
     states, second, steps = start
     change = 0.0
@@ -76,20 +80,24 @@ def solve_on_mesh(
         updated = second_order(nip, model.geometry, mesh, state)
         change = change_of(updated, second, mesh, nip, state)
         second, states = updated, state.states
-        if not change > still * model.tolerance:
+        if not change > settled_change * model.tolerance:
             break
     if zones is None:
         zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
-    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
-    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
+    settled = (
+        state.settled and change <= settled_change * model.tolerance and figures.peak_pressure > 0.0
+    )
+    return MeshSolution(
+        mesh, problem, state, second, zones, figures, unknown, steps, settled, change
+    )
 
 
 def change_of(
     new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
 ) -> float:
-    """Return the largest change of the second-order terms, relative to the first-order ones."""
+    """Return the largest change of the second-order terms, relative to the first-order terms."""
     half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
     approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
@@ -115,26 +123,28 @@ def figures_of(
 def converge(
     nip: Nip,
     model: Model,
-    latest: Round,
+    latest: MeshSolution,
     method: Method,
     zones: tuple[ContactZone, ...] | None = None,
-) -> Round:
-    """Repeat iterations until the second-order terms change as little as those of a result must.
+) -> MeshSolution:
+    """Return a solution iterated until its second-order terms change no more than a result's may.
 
-    ``zones`` are those of the solution where they are known.
+    ``zones``: see `solve_on_mesh`.
     """
-    if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
+    if not latest.settled or latest.geometry_change <= NEGLIGIBLE * model.tolerance:
         return latest
     start = (latest.state.states, latest.second, latest.steps)
-    still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)
-    return replace(still, error=latest.error, make_further_error=latest.make_further_error)
+    converged = solve_on_mesh(nip, model, latest.mesh, start, method, NEGLIGIBLE, zones)
+    return replace(converged, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
-def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """Add the residual to a solution, from the contact conditions on more points.
+def with_residual(
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+) -> MeshSolution:
+    """Return a solution with its residual: of the contact conditions, on more points.
 
-    From here on the mesh holds the second order of its own tractions. The change of the
-    second-order terms by that is recorded as the last change.
+    Where the second order follows the tractions, the mesh of the result holds that of its own
+    tractions. The change of the second-order terms that this makes counts for `geometry_change`.
     """
     if not kernels.is_fixed:
         kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))

@@ -1,4 +1,4 @@
-"""Lengths of a nip: the boundary layers at the ends of zones, and the shortest zones that count."""
+"""Characteristic lengths of a nip: the shortest boundary layer, and the shortest relevant zone."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 
-_SHORTEST = 0.5  # zone, over the tolerance times the width, or times the boundary layer if less
+_SHORTEST = 0.5  # zone, over the tolerance times the lesser of width and boundary layer
 
 
 def shortest_zone(nip: Nip, model: Model, width: float) -> float:
-    """Return the length of the shortest zone that is looked for in a contact [mm].
+    """Return the length of the shortest zone that a contact is searched for [mm].
 
-    Up to an edge that sticks, the shear of unlike surfaces is singular: there they slip on some
-    length, however short, and beside it the other way on a shorter one. On eleven nips, leaving out
-    slip of length l changed the creepage over its scale (`creepage_scale`) by a fifth of l over
-    ``width`` at most, and the edges by a tenth of l (decision 87).
+    The shear of unlike surfaces is singular at an edge that sticks. So they slip there over some
+    length, however short, and next to it in the other direction over a shorter one. On eleven nips,
+    neglecting a slip zone of length l changed the creepage, over its scale (`creepage_scale`), by
+    at most a fifth of l over ``width``, and the edges by a tenth of l (decision 87).
     """
     return _SHORTEST * model.tolerance * min(width, boundary_layer(nip))
 
@@ -25,8 +25,8 @@ def shortest_zone(nip: Nip, model: Model, width: float) -> float:
 def boundary_layer(nip: Nip) -> float:
     """Return the length of the shortest boundary layer at the ends of zones [mm].
 
-    Over lengths up to the depth of the first interface the surface responds as a half-plane of its
-    top layer; over larger ones the layers below count, and the tractions change between the two.
+    It is the depth of the first interface. Over shorter lengths a surface responds as a half-plane
+    of its top layer, over larger ones with the layers below; tractions change between the two.
     """
     return min(_first_interface(nip.upper), _first_interface(nip.lower))
 

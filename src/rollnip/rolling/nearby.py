@@ -1,8 +1,8 @@
-"""A nip that has been solved, as a start for one that is much like it.
+"""A solved nip, as initial guess for a similar one at finite strain.
 
-The correction of all orders that belongs to the old solution is held while the new contact is
-solved, and its elements start from their old equilibrium. The iterations that follow end as any
-others do: where the contact conditions are met with the correction of the solution itself.
+The new contact is first solved with the old solution's correction of all orders held, and the
+finite elements start from their old equilibrium. The iterations that follow end as any others do:
+when the contact conditions are met with the correction of the solution itself.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from rollnip.finite import Equilibrium
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.free_ends import is_verified, with_free_ends
-from rollnip.rolling.round import Round
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
@@ -27,14 +27,14 @@ class Nearby:
 
     Attributes
     ----------
-    nip : that was solved.
-    kernels : its influence functions, with the correction of the solution.
+    nip : the nip solved.
+    kernels : its influence functions, holding the correction of the solution.
     final : the solution.
     """
 
     nip: Nip
     kernels: PairKernels
-    final: Round
+    final: MeshSolution
 
     @property
     def bodies(self) -> tuple[Equilibrium | None, Equilibrium | None]:
@@ -42,12 +42,15 @@ class Nearby:
         held = self.kernels.held
         return (None, None) if held is None else held.bodies
 
-    def begun(
+    def first_contact(
         self, nip: Nip, model: Model, kernels: PairKernels, half_width: float
-    ) -> tuple[PairKernels, Round] | None:
-        """Return the contact of another nip with the correction held, and what holds it.
+    ) -> tuple[PairKernels, MeshSolution] | None:
+        """Return the contact of another nip with the correction of this one held.
 
-        None where the nips are not much alike, or where that has no solution.
+        Returns
+        -------
+        The influence functions that hold the correction, and the solution; None where the nips are
+        not alike enough, or no solution is found.
         """
         held, layout = self.kernels.held, Layout.of(self.final.zones)
         if held is None or held.share < 1.0 or layout is None:
@@ -67,6 +70,6 @@ class Nearby:
 
 
 def _kind(nip: Nip) -> tuple[object, ...]:
-    """Return what is alike in nips of a family: what is given, and what moves."""
+    """Return what similar nips must share: what is prescribed, and which rollers are rigid."""
     given = type(nip.normal), type(nip.tangential), nip.friction > 0.0
     return *given, nip.upper.is_rigid, nip.lower.is_rigid

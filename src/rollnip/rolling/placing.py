@@ -1,249 +1,188 @@
-"""The ends of zones, by secants on meshes of one size whose nodes lie at the ends.
+"""The free boundary at one mesh size: meshes whose nodes follow the ends of zones.
 
-The tractions at the first nodes beside each end say where it moves (`contact.Layout.moved`). Once
-the ends are about right, a solution tells whether its zones are right too (`search.ZoneSearch`).
+The tractions at the first nodes beside each end propose where it should be
+(`contact.Layout.with_proposed_ends`), and Broyden's method moves it there (`contact.secants`). Once
+the ends are nearly right, a solution shows whether its zones are the right ones
+(`search.ZoneSearch`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, log10
 
 import numpy as np
 
-from rollnip.contact import (
-    GivenStates,
-    Layout,
-    cosine_nodes,
-    crowding_of,
-    elements_of_zones,
-    subdivided,
-)
-from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
-from rollnip.contact.problem import Indices
-from rollnip.contact.secants import Secants
-from rollnip.influence import has_stiff_skin
+from rollnip.contact import Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import second_order
-from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.estimates import length_excess
-from rollnip.rolling.iterations import (
-    STILL,
-    STILL_UNDER_SKIN,
-    change_of,
-    held_from,
-    solve_on_mesh,
-)
-from rollnip.rolling.lengths import boundary_layer
-from rollnip.rolling.round import Figures, Round, excess
+from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
+from rollnip.rolling.iterations import NEGLIGIBLE
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.zone_meshes import are_too_many
 
-# Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
-# sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
+# Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
+# digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
+# 19.
 MOST_MESHES = 8
-# Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
-# solution says only which way an edge should go, and the way between the last two is halved.
+# Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
+# by more than a boundary layer is found by bisection, as a solution shows only in which direction
+# it should move.
 _MOST_HALVINGS = 6
-_NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
-_PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
-
-
-# Elements in each zone and their crowding.
-Shape = tuple[Indices, tuple[float, ...]]
 
 
 @dataclass(frozen=True)
 class Placing:
-    """The search for the zones of a nip and their ends, for one model."""
+    """Solver for the zones of a nip and their ends, on meshes of a given size."""
 
     nip: Nip
     model: Model
     kernels: PairKernels
-    given: GivenStates = field(default_factory=GivenStates)
 
-    def placed(
-        self, start: SearchState, count: int, *, known: bool, closely: bool = False
+    def solve(
+        self, start: SearchState, count: int, *, zones_known: bool, settles_figures: bool = False
     ) -> SearchState | None:
-        """Find the solution on a mesh of some size whose nodes lie at the ends of its zones.
+        """Return the solution with placed ends on a mesh of given size, and its zones.
+
+        Each step solves on one mesh and moves its ends, or changes the zones if the solution shows
+        that there are others.
 
         Parameters
         ----------
-        start : where the search stands.
-        count : elements, about.
-        known : whether the zones are right.
-        closely : whether ends must not change the figures any more. Two meshes tell, or one where
-            those of the size before have shown what ends do to figures.
+        start : state of the search, with the zones to start from.
+        count : rough number of elements.
+        zones_known : whether the zones are known to be right.
+        settles_figures : whether to place the ends so exactly that the figures no longer change
+            with them. Two meshes show how figures depend on ends, or one if the previous size has
+            shown it.
 
         Returns
         -------
-        None where there is no such solution.
+        None where no such solution is found.
         """
-        # The second order held so far is that of a coarser mesh: each size evaluates its own.
-        state, known_to = self._renewed(replace(start, expected=inf)), start.misplacement
-        shape: Shape | None = None
-        ends, meshes, is_seen = Secants(known_to * start.layout.width), 0, True
-        last: tuple[Layout, Figures] | None = None
-        effect = start.effect
-        tried: set[bytes] = set()
-        most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
-        while meshes < most_meshes and _can_be_placed(state.layout):
-            meshes += 1
-            layout = state.layout
-            crowding = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
-            if shape is None or _crowds_more(crowding, shape[1]):
-                # Elements stay as they are while edges are sought: other ones would move the edges.
-                shape = elements_of_zones(layout.breaks, count, crowding), crowding
-                ends.forget()
-                last = None
-            latest, proposed = self._solved_on(state, shape)
-            misplacement = proposed.distance(layout)
-            known_to = min(known_to, misplacement)
-            is_quiet = self.kernels.is_fixed or state.is_quiet
-            is_near = not known and misplacement < NEAR_ENOUGH and is_quiet
-            is_still = latest.settled and is_quiet
-            # Figures of other zones tell nothing of errors.
-            is_close = closely and layout.is_like(start.layout)
-            there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
-            if last is not None:
-                effect = _effect_of_ends(last, (layout, latest.figures))
-            elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
-                effect = None  # zones change too much to tell from those of another size
-            left = None if effect is None else effect.times(there.distance(layout))
-            last = layout, latest.figures
-            by_figures = is_close and self._rests_by_figures
-            is_placed = (
-                self._is_placed(layout, proposed, known=known, by_figures=by_figures)
-                and (proposed.is_proper and is_still)
-                and not (by_figures and self._changes(latest, left))
-                and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
-                and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
-            )
+        # The second order held so far is from a coarser mesh: each size evaluates its own.
+        search = EndSearch.of(self.solver, replace(start, expected=inf), count)
+        most_meshes = self._most_meshes(self.solver.meshes.crowding(start.layout))
+        while search.meshes < most_meshes and _can_be_placed(search.state.layout):
+            step = search.solve_mesh()
+            # The figures show errors of ends only with the zones of the previous size.
+            same_zones = settles_figures and step.layout.is_like(start.layout)
+            is_placed = self._is_placed_by(step, zones_known=zones_known, same_zones=same_zones)
+            is_near = not zones_known and step.misplacement < NEAR_ENOUGH and step.is_quiet
             others = self.search.other_zones(
-                latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
+                step.latest,
+                (step.layout, step.proposed),
+                search.ends,
+                is_placed=is_placed,
+                is_near=is_near,
             )
-            other = _untried(others, layout, tried)
+            other = search.untried(others)
             if other is not None:
-                tried.add(other.layout.key)
-                state, shape = self._renewed(other), None
-                ends = Secants(known_to * layout.width)
-                # Ends that have been placed before hardly move: what they do is not seen.
-                is_seen, effect = is_seen and not is_placed, None
-                meshes = 0
-            elif is_placed:
-                if self.search.pulls(latest):
-                    return None
-                placed = _state_at(there, latest, state, misplacement)
-                return replace(placed, left=left, effect=effect if is_seen else None)
+                search.change_zones(other, was_placed=is_placed)
+            elif not is_placed:
+                search.move_ends(step)
+            elif self.search.has_tension(step.latest):
+                return None
             else:
-                state = self._renewed(SearchState(there, latest, state.change, state.expected))
+                return search.result(step)
         return None
 
-    def solved_at_moved_ends(self, state: SearchState) -> SearchState | None:
-        """Solve on meshes like the last one, with the ends of zones where the last one put them.
+    def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
+        """Return the solution with the ends moved to where the last solution put them.
 
-        Once where ends hardly move, else twice; they need not be placed.
+        It takes one mesh like the last one if the ends hardly move, otherwise two. The ends need
+        not be placed.
 
         Returns
         -------
-        None where the solution calls for other zones.
+        None where the solution calls for other zones, or the ends move by more than before.
         """
         fine = state.before.mesh.fine
         shape, misplacement = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
             layout, before = state.layout, misplacement
-            latest, proposed = self._solved_on(state, shape)
+            latest, proposed = self.solver.solve(state, shape)
             misplacement = proposed.distance(layout)
-            is_placed = self._is_placed(layout, proposed, known=True)
+            is_placed = self._is_placed(layout, proposed, zones_known=True)
             if (
                 not proposed.is_proper
-                or self.search.wanted(latest, layout, whole=is_placed) is not None
+                or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
             ):
                 return None
             if misplacement > max(self.model.tolerance, before):
                 return None
-            state = _state_at(proposed, latest, state, misplacement)
+            state = state_at(proposed, latest, state, misplacement)
             if misplacement <= self.model.tolerance:
                 break
         return state
 
-    def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
-        """Return a mesh on zones that are only known roughly: no solution has them as its own."""
-        shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
-        nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape, self.longest_piece)
-        return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+    @cached_property
+    def solver(self) -> ZoneSolver:
+        """The solver with given zones."""
+        return ZoneSolver(self.nip, self.model, self.kernels)
 
     @cached_property
     def search(self) -> ZoneSearch:
-        """The questions to ask of a solution."""
+        """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model, self.kernels)
 
-    @cached_property
-    def boundary(self) -> float:
-        """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
-        return boundary_layer(self.nip)
-
-    @cached_property
-    def still(self) -> float:
-        """Change of second-order terms in an iteration that is small enough, over the tolerance.
-
-        Under a stiff skin the pressure beside an edge follows each small change of the gap.
-        """
-        return STILL_UNDER_SKIN if has_stiff_skin((self.nip.upper, self.nip.lower)) else STILL
-
-    @cached_property
-    def longest_piece(self) -> float:
-        """Length of the straight pieces in which tractions act, at most [mm].
-
-        A thin incompressible covering on a rigid core moves as the second derivative of the
-        pressure, which straight pieces longer than its thickness do not have.
-        """
-        coverings = [
-            roller.coating_thickness
-            for roller in (self.nip.upper, self.nip.lower)
-            if not roller.is_rigid and roller.core is None
-            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-        ]
-        return min(coverings, default=inf) / _PIECES_PER_THICKNESS
-
     @property
-    def _rests_by_figures(self) -> bool:
-        """Whether ends are placed when the figures do not change with them any more.
+    def _judges_ends_by_figures(self) -> bool:
+        """Whether ends count as placed once the figures no longer change with them.
 
-        Without friction they hardly do; corrections of finite strain need ends exact as they are.
+        Without friction figures hardly depend on the ends; at finite strain corrections need exact
+        ends, whatever the figures do.
         """
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
-    def _is_placed(
-        self, layout: Layout, proposed: Layout, *, known: bool, by_figures: bool = False
-    ) -> bool:
-        """Return whether the errors of ends of zones are small over the width of the contact.
+    def _is_placed_by(self, step: EndStep, *, zones_known: bool, same_zones: bool) -> bool:
+        """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
-        Where the figures say how exactly they are placed (``by_figures``), the tolerance will do.
-        Without friction edges of zones that are ``known`` are placed over the length of their
-        boundary layer, if that is less: pressures change within it.
+        ``same_zones``: whether figures can be compared with those of the previous size.
         """
-        most = self.model.tolerance * (1.0 if by_figures else STILL)
+        layout, latest = step.layout, step.latest
+        by_figures = same_zones and self._judges_ends_by_figures
+        return (
+            self._is_placed(layout, step.proposed, zones_known=zones_known, by_figures=by_figures)
+            and (step.proposed.is_proper and step.is_settled)
+            and not (by_figures and self._changes(latest, step.end_error))
+            and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
+            and self.solver.meshes.resolves(layout, step.shape)
+        )
+
+    def _is_placed(
+        self, layout: Layout, proposed: Layout, *, zones_known: bool, by_figures: bool = False
+    ) -> bool:
+        """Return whether the errors of the ends are small relative to the width of the contact.
+
+        If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
+        otherwise a tenth of it. Without friction, the edges of zones that are known are placed
+        relative to the boundary layer instead, if it is shorter, as the pressure changes within it.
+        """
+        most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
-        if known and self.nip.friction == 0.0:
-            length = min(length, self.boundary)
+        if zones_known and self.nip.friction == 0.0:
+            length = min(length, self.solver.meshes.boundary)
         return proposed.distance(layout) * layout.width <= most * length
 
-    def _changes(self, latest: Round, left: Figures | None) -> bool:
-        """Return whether the figures still change with the ends, by more than iterations may."""
-        if left is None:
+    def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
+        """Return whether the figures still change with the ends, by more than iterations may leave.
+
+        ``end_error``: the expected changes; None: unknown, and taken as too large.
+        """
+        if end_error is None:
             return True
-        return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
+        changed = replace(latest, error=end_error)
+        return error_ratio(self.nip, changed, self.model.tolerance) > NEGLIGIBLE
 
-    def _exceeds_bound(self, latest: Round) -> bool:
-        """Return whether shear beside a transition exceeds its bound by more than a result may.
+    def _exceeds_bound(self, latest: MeshSolution) -> bool:
+        """Return whether the shear beside a transition exceeds its bound by more than allowed.
 
-        A zone of stick that is too long by delta leaves a shear over its bound in its last element,
-        under a stiff skin a large one, for it answers the slightest stretch with shear.
+        A stick zone that is too long by delta has a shear beyond the bound in its last element;
+        under a stiff skin, where the slightest stretch causes shear, far beyond it.
         """
         breaks = np.cumsum((0, *latest.mesh.fine.elements))[1:-1]
         x = latest.mesh.inner
@@ -253,96 +192,20 @@ class Placing:
         cell = np.searchsorted(x, places)
         return bool(np.isin(cell, (breaks, breaks + 1)).any())
 
-    def _singular(self, latest: Round, layout: Layout) -> Array | None:
-        """Return `Layout.singular`; None with friction, or with several zones.
-
-        Where unlike surfaces stick up to an edge, the shear has an inverse square root that
-        oscillates, and the pressure follows it.
-        """
-        if self.nip.friction > 0.0 or layout.states.size > 1:
-            return None
-        return layout.singular(latest.mesh.inner, latest.state)
-
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
-        most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
+        most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
         if len(crowding) == 1 and crowding[0] < 1.0:
             most += _MOST_HALVINGS
         return most
 
-    def _renewed(self, state: SearchState) -> SearchState:
-        """Evaluate the second order of the last solution and what follows, if it still moves."""
-        before = state.before
-        if self.kernels.is_fixed or state.is_quiet:
-            return state
-        mesh = before.mesh.holding(held_from(self.kernels, before))
-        second = second_order(self.nip, self.model.geometry, mesh, before.state)
-        change = change_of(second, before.second, mesh, self.nip, before.state)
-        change /= self.model.tolerance
-        expected = to_come_after(change, state.change)
-        return SearchState(
-            state.layout, replace(before, mesh=mesh, second=second), change, expected
-        )
 
-    def _solved_on(self, state: SearchState, shape: Shape) -> tuple[Round, Layout]:
-        """Solve on one mesh; return the solution, and where it puts the ends of zones."""
-        layout, before = state.layout, state.before
-        mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
-        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
-        latest = solve_on_mesh(
-            self.nip, self.model, mesh, start, self.given, self.still, layout.zones
-        )
-        return latest, layout.moved(mesh.inner, latest.state, self.nip.friction)
-
-
-def _untried(
-    others: Iterable[SearchState], layout: Layout, tried: set[bytes]
-) -> SearchState | None:
-    """Return the first zones that were not tried before; fewer than now are tried again."""
-    for other in others:
-        if other.layout.states.size < layout.states.size or other.layout.key not in tried:
-            return other
-    return None
-
-
-def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:
-    """Return what the last move of the ends changed of the figures, over its length."""
-    step = now[0].distance(before[0])
-    return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)
-
-
-def _is_false_at_edge(latest: Round) -> bool:
-    """Return whether the pressure at an edge is that of a misplaced one."""
+def _is_false_at_edge(latest: MeshSolution) -> bool:
+    """Return whether the pressure at an edge shows that the edge is misplaced."""
     pressure = latest.state.pressure
-    return latest.mesh.pulls_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
+    return latest.mesh.has_tension_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
 
 
 def _can_be_placed(layout: Layout) -> bool:
-    """Return whether zones have a length, and are not so many that they only tell of errors."""
+    """Return whether all zones have a length, and are not too many."""
     return layout.is_proper and not are_too_many(layout.states.size)
-
-
-def are_too_many(zones: int) -> bool:
-    """Return whether the least shares of so many zones exceed a mesh; errors make so many."""
-    return zones * LEAST_SHARE_OF_A_ZONE > 1.0
-
-
-def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
-    """Return whether nodes of any zone crowd more, or other zones."""
-    return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
-
-
-def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:
-    """Make a mesh whose nodes lie at the ends of zones; ``shortest``: see `subdivided`."""
-    nodes = cosine_nodes(layout.breaks, *shape)
-    edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-    return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest, edges))
-
-
-def _state_at(
-    proposed: Layout, latest: Round, state: SearchState, misplacement: float
-) -> SearchState:
-    """Return the search with the ends of zones at their proposed places."""
-    figures = replace(latest.figures, nip_width=proposed.width)
-    latest = replace(latest, zones=proposed.zones, figures=figures)
-    return SearchState(proposed, latest, state.change, state.expected, misplacement)

@@ -1,22 +1,22 @@
 """The power of the axles: torques, the loss by slip, the losses in viscoelastic layers.
 
-A surface that rolls steadily moves along the interface at V_r lambda, V_r the circumferential
+A surface that rolls steadily moves along the interface at V_r lambda, V_r being the circumferential
 speed of its roller and lambda its stretch; a pressure does no work on it. The power that an axle
-puts in is what its roller hands on and what it loses inside:
+supplies is what its roller transmits and what it dissipates inside:
 
     M_u V_u/R_u = V_u (int q lambda_u ds + w_u),   M_l V_l/R_l = V_l (w_l - int q lambda_l ds),
 
-w the loss inside a roller per rolled distance, ds along the deformed interface. This is exact at
-any strain. The sum of both is the friction loss int q (V_u lambda_u - V_l lambda_l) ds and the
-viscous loss V_u w_u + V_l w_l: the balance closes in every geometry, with the stretch that its
-creep has, and nothing large cancels in a torque. The moments of pressure and shear about both
-axles must give the same torques to the order of the geometry; tests confirm that they do.
+with w the loss inside a roller per distance rolled and ds along the deformed interface. This is
+exact at any strain. The sum of both is the friction loss int q (V_u lambda_u - V_l lambda_l) ds
+plus the viscous loss V_u w_u + V_l w_l. So the balance closes in every geometry, provided the
+stretch is that of its creep, and no large terms cancel in a torque. The moments of pressure and
+shear about both axles must give the same torques to the order of the geometry; tests confirm it.
 
-Shear opposes slip, so no zone of slip loses less than nothing. A solution meets this to its
-residual only: in a zone of a thousandth of the contact slip may come out reversed, by as little as
-the residual allows. The loss of a zone is then taken as 0, which of all possible losses is nearest
-to the one computed, and nearer to the true one than that. What is left out counts as an error of
-the loss, and the powers miss their balance by as much.
+Shear opposes slip, so the loss of a slip zone is never negative. A solution meets this only to its
+residual: in a zone of a thousandth of the contact slip may be reversed, by as little as the
+residual allows. The loss of such a zone is set to 0, which is the possible loss closest to the
+computed one, and closer to the true one than that. The difference counts as an error of the loss,
+and the powers miss their balance by as much.
 """
 
 from __future__ import annotations
@@ -41,24 +41,24 @@ from rollnip.rolling.assemble import (
     slip_intervals,
     stretches,
 )
-from rollnip.rolling.round import Round
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.surfaces import Array
 
 
 @dataclass(frozen=True, slots=True)
 class Powers:
-    """Losses and pulls per rolled distance and axial length; times V [mm/s] each is a power.
+    """Losses and transmitted work per distance rolled and axial length; times V they are powers.
 
     Attributes
     ----------
-    friction : lost where the surfaces slip, -int q s ds/V [N/mm].
-    lost_upper, lost_lower : inside each roller, per distance of its own surface [N/mm].
-    pull_upper, pull_lower : int q lambda ds, what the shear hands over at the surface of each
-        roller per distance of that surface [N/mm].
+    friction : loss by slip, -int q s ds/V [N/mm].
+    lost_upper, lost_lower : loss inside each roller, per distance of its own surface [N/mm].
+    pull_upper, pull_lower : int q lambda ds, work of the shear at the surface of each roller, per
+        distance of that surface [N/mm].
     cut : change of ``friction`` by the short waves that the solution leaves out [N/mm].
-    reversed_slip : the work of slip along its own shear, of which ``friction`` knows none [N/mm].
-    moment_upper, moment_lower : of the tractions about both axles, over the radii [N/mm]; nan but
-        in "finite": in equilibrium, and so at finite strain, they are what drives the axles.
+    reversed_slip : work of slip in the direction of its own shear, set to 0 in ``friction`` [N/mm].
+    moment_upper, moment_lower : moments of the tractions about both axles, over the radii [N/mm];
+        nan except in "finite": in equilibrium, so at finite strain, they equal the torques.
     """
 
     friction: float
@@ -83,13 +83,13 @@ class Powers:
 
 
 def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
-    """Return the speeds of both rollers over V, to the order of the model."""
+    """Return the speeds of both rollers, divided by V, to the order of the model."""
     half = 0.0 if isnan(creepage) else 0.5 * creepage
     return (1.0, 1.0) if geometry in ("linear", "corrected") else (1.0 + half, 1.0 - half)
 
 
-def powers(nip: Nip, geometry: Geometry, found: Round) -> Powers:
-    """Return torques over radii and losses of a solution."""
+def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
+    """Return the losses and the transmitted work of a solution."""
     mesh, state = found.mesh, found.state
     x, u = mesh.fine.nodes[1:], found.displacements
     finer, dx = mesh.finer(u), x[1:] - x[:-1]
@@ -121,12 +121,12 @@ def powers(nip: Nip, geometry: Geometry, found: Round) -> Powers:
 
 
 def slip_losses(work: Array, zones: Sequence[Bools]) -> tuple[float, float]:
-    """Return what slip loses, and the work of slip along its own shear, which loses nothing.
+    """Return the loss by slip, and the work of slip that is reversed, along its own shear.
 
     Parameters
     ----------
-    work : (n,) of the shear on the creep of each interval.
-    zones : (n,) each: the intervals of one zone of slip.
+    work : (n,) work of the shear on the creep of each interval.
+    zones : (n,) each: the intervals of one zone; in stick there are none.
     """
     of_zones = [float(work[inside].sum()) for inside in zones]
     return sum(max(one, 0.0) for one in of_zones), sum(max(-one, 0.0) for one in of_zones)

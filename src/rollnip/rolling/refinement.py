@@ -1,4 +1,4 @@
-"""From a guess of the width to a solution: zones, then their ends, on ever finer meshes."""
+"""From an estimate of the width to a verified solution: zones node by node, then free ends."""
 
 from __future__ import annotations
 
@@ -14,29 +14,30 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
-    STILL,
+    NEGLIGIBLE,
     converge,
     holding,
     solve_on_mesh,
     with_residual,
 )
-from rollnip.rolling.placing import MOST_MESHES, Placing, are_too_many
-from rollnip.rolling.round import Round, has_grip
+from rollnip.rolling.mesh_solution import MeshSolution, has_grip
+from rollnip.rolling.placing import MOST_MESHES, Placing
 from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.zone_meshes import are_too_many
 
 BY_NODES = Safeguarded()
-"""Solver of a contact problem whose states are sought node by node."""
+"""Solver that seeks the states of a contact problem node by node."""
 SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
 COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
-"""Those of them where the contact itself is only a coarse one."""
+"""The sizes for a contact that need only be coarse."""
 
 
 class IsTooDeep(Protocol):
-    """A function that judges how far layers are pressed in, `no_nip.is_too_deep` of one nip."""
+    """A function that judges how far layers are compressed: `no_nip.is_too_deep` for one nip."""
 
-    def __call__(self, found: Round, *, is_rough: bool) -> bool:
-        """Return whether a layer is pressed in too far by a solution, a rough one or not."""
+    def __call__(self, found: MeshSolution, *, is_rough: bool) -> bool:
+        """Return whether a solution presses a layer in too far; ``is_rough``: a rough solution."""
         ...
 
 
@@ -47,30 +48,30 @@ def refine(
     half_width: float,
     sizes: tuple[int, ...] = SIZES,
     is_too_deep: IsTooDeep | None = None,
-) -> Round:
-    """Solve on ever better meshes until the estimated error is below the tolerance.
+) -> MeshSolution:
+    """Return a solution with an estimated error below the tolerance, if one is found.
 
-    Contact, stick and slip are sought node by node, on a coarse mesh that reaches beyond a guess of
-    the contact, and the zones found are given to free ends to begin with (`with_free_ends`). Where
-    these do not verify a solution, zones are sought again on ever finer meshes.
+    Zones are first sought node by node, on a coarse mesh that extends beyond the estimated contact.
+    Their ends are then a free boundary (`with_free_ends`). If that gives no verified solution,
+    zones are sought again on the next finer mesh.
 
     Parameters
     ----------
-    half_width : first guess [mm].
-    sizes : elements of the meshes on which zones are sought, in turn.
-    is_too_deep : tells which solutions no finer mesh makes possible: such a one is returned as it
-        is; None: none is.
+    half_width : first estimate [mm].
+    sizes : numbers of elements of the meshes on which zones are sought, in turn.
+    is_too_deep : tells which solutions no finer mesh can make possible; such a one is returned as
+        it is. None: do not check.
 
     Returns
     -------
-    A verified solution; else the best one with free ends or, where there is none, the last one
-    node by node, of those that have settled if any has: a start whose ends were not found.
+    A verified solution; otherwise the last one with free ends; if there is none, the last one
+    found node by node, preferably one that has settled.
     """
-    best: Round | None = None
+    best: MeshSolution | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
         if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
             return latest
-        found = placed(nip, model, kernels, latest) if latest.settled else None
+        found = free_ends_from_nodes(nip, model, kernels, latest) if latest.settled else None
         if is_verified(found, model):
             return found
         best = found or best
@@ -80,8 +81,10 @@ def refine(
     return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
 
 
-def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Round | None:
-    """Solve with zones whose ends are free, from those of a solution node by node."""
+def free_ends_from_nodes(
+    nip: Nip, model: Model, kernels: PairKernels, located: MeshSolution
+) -> MeshSolution | None:
+    """Return the solution with free ends, starting from the zones of one found node by node."""
     layout, count = Layout.of(located.zones), located.mesh.inner.size
     if layout is None:
         return None
@@ -94,16 +97,18 @@ def by_nodes(
     kernels: PairKernels,
     half_width: float,
     sizes: tuple[int, ...],
-) -> Iterator[Round]:
-    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any.
+) -> Iterator[MeshSolution]:
+    """Yield the solution found node by node on each of the mesh sizes.
 
-    Of each size comes the last solution that has settled; one that has not only before any has.
+    For each size that is the last solution that has settled. One that has not settled is yielded
+    only as long as none has. The sequence ends early where nothing is pressed, or friction cannot
+    carry the prescribed traction.
     """
     placing = Placing(nip, model, kernels)
-    before: Round | None = None
+    before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
-        found, settled = _on(placing, half_width, count, before)
+        found, settled = _solve_at_size(placing, half_width, count, before)
         any_settled = any_settled or settled is not None
         if settled is not None or not any_settled:
             yield settled or found
@@ -112,25 +117,27 @@ def by_nodes(
         before = found if found.settled else before
 
 
-def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
-    """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
+def finer_by_nodes(
+    nip: Nip, model: Model, kernels: PairKernels, before: MeshSolution
+) -> MeshSolution | None:
+    """Return the solution node by node on the next finer mesh; None if there is no finer one."""
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
-    found, settled = _on(Placing(nip, model, kernels), 0.0, finer[0], before)
+    found, settled = _solve_at_size(Placing(nip, model, kernels), 0.0, finer[0], before)
     return settled or found
 
 
-def _on(
-    placing: Placing, half_width: float, count: int, before: Round | None
-) -> tuple[Round, Round | None]:
-    """Solve node by node on meshes of one size, each dense at the ends that the last one found.
+def _solve_at_size(
+    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+) -> tuple[MeshSolution, MeshSolution | None]:
+    """Return the last solution node by node at one mesh size, and the last that has settled.
 
-    Return the last solution, and the last one that has settled.
+    Each mesh is dense at the ends of zones that the previous one found.
     """
-    last: Round | None = None
+    last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
-        found = _on_one(placing, half_width, count, last or before)
+        found = _solve_by_nodes(placing, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _zones_are_known(placing, found, last):
             break
@@ -138,33 +145,40 @@ def _on(
     return found, found if found.settled else last
 
 
-def _on_one(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:
+def _solve_by_nodes(
+    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+) -> MeshSolution:
+    """Return the solution node by node on a mesh around the zones of ``before``, or a guess."""
     nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
-        around = Layout.around(Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width)
+        around = Layout.with_free_surfaces(
+            Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width
+        )
     else:
         zones = before.zones
-        if are_too_many(len(zones)):  # the mesh is dense at both edges only
+        if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
-        around = Layout.around(zones, NEAR_ENOUGH * before.figures.nip_width)
-    mesh = placing.mesh_around(around, count, holding(kernels, before))
+        around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
+    mesh = placing.solver.meshes.around(around, count, holding(kernels, before))
     second, steps = first_guess(nip, mesh), 0
     if before is not None:
         second, steps = before.second.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), second, steps
-    return solve_on_mesh(nip, model, mesh, start, BY_NODES, STILL)
+    return solve_on_mesh(nip, model, mesh, start, BY_NODES, NEGLIGIBLE)
 
 
-def _zones_are_known(placing: Placing, latest: Round, before: Round | None) -> bool:
-    """Return whether zones are known well enough to place their ends.
+def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolution | None) -> bool:
+    """Return whether the zones are known well enough to place their ends.
 
-    The first mesh of a size has short elements at the edges of the contact, but at transitions or
-    at boundary layers shorter than its elements only a second one has. Second-order terms that
-    each mesh holds from the one before must not move an end by more than an element.
+    The first mesh of a size is dense at the edges only. It takes a second one to be dense at
+    transitions, or in boundary layers shorter than the elements. If each mesh holds the
+    second-order terms of the one before, no end may have moved by more than an element.
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
     if placing.kernels.is_fixed:
-        return before is not None or (len(latest.zones) == 1 and placing.boundary >= element)
+        return before is not None or (
+            len(latest.zones) == 1 and placing.solver.meshes.boundary >= element
+        )
     if before is None or len(before.zones) != len(latest.zones):
         return False
     ends = np.array([(zone.start, zone.stop) for zone in latest.zones])

@@ -1,4 +1,4 @@
-"""Which zones a contact has: what a solution says of its own."""
+"""The search for the zones of a contact: which other zones a solution calls for."""
 
 from __future__ import annotations
 
@@ -22,17 +22,18 @@ from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.iterations import STILL
+from rollnip.rolling.iterations import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.round import Figures, Round
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 NEAR_ENOUGH = 0.1
-"""How far ends may be off, over the width of the contact, to begin with and to see what slips.
+"""Largest misplacement of ends, over the width, with which a solution shows what slips.
 
-Likewise the room beside edges that are not known yet, and the relative change of a half-width or
-of a correction with which a contact is still a start for the next one.
+It is also the misplacement assumed initially, the free surface beside estimated edges, and the
+relative change of a half-width or a correction up to which a contact is an initial guess for the
+next one.
 """
 
 
@@ -42,33 +43,34 @@ class SearchState:
 
     Attributes
     ----------
-    layout : where the zones are thought to be.
+    layout : the zones to solve with next.
     before : the last solution.
     change : of the second-order terms when the second order of "second" was last evaluated, over
         the tolerance.
-    expected : the change that all further evaluations would add up to, over the tolerance.
-    misplacement : of the ends of zones at most, over the width of the contact.
-    left : what that may still change of each figure; None: not known.
-    effect : what ends misplaced by the width would change of each figure; None: not known.
+    expected : sum of the changes that further evaluations would make, over the tolerance.
+    misplacement : largest error of the ends of zones, over the width of the contact.
+    end_error : change of each figure that this misplacement may cause; None: not known.
+    end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
+        known.
     """
 
     layout: Layout
-    before: Round
+    before: MeshSolution
     change: float = inf
     expected: float = inf
     misplacement: float = NEAR_ENOUGH
-    left: Figures | None = None
-    effect: Figures | None = None
+    end_error: Figures | None = None
+    end_sensitivity: Figures | None = None
 
     @property
     def is_quiet(self) -> bool:
-        """Return whether further evaluations of the second order would change too little."""
+        """Return whether further evaluations of the second order would change it negligibly."""
         return self.expected <= 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class ZoneSearch:
-    """The search for the zones of a nip, for one model and its influence functions."""
+    """The rules by which a solution shows that the zones of a nip are others."""
 
     nip: Nip
     model: Model
@@ -76,21 +78,23 @@ class ZoneSearch:
 
     def other_zones(
         self,
-        latest: Round,
+        latest: MeshSolution,
         zones: tuple[Layout, Layout],
         ends: Secants,
         *,
         is_placed: bool,
         is_near: bool,
     ) -> Iterator[SearchState]:
-        """Give the other zones that a solution calls for; none where it agrees with its own.
+        """Yield the other zones that a solution calls for, in the order to try them.
+
+        There are none if the solution is consistent with its own zones.
 
         Parameters
         ----------
         latest : the solution.
-        zones : its zones, and with their ends where the solution puts them.
-        ends : what meshes with the same zones have shown.
-        is_placed, is_near : whether the ends lie where they should, or nearly.
+        zones : its zones, and the same with the ends where the solution puts them.
+        ends : the search for the ends of these zones.
+        is_placed, is_near : whether the ends are placed, or nearly so.
         """
         layout, proposed = zones
         keeps_stick = _keeps_stick(latest)
@@ -100,11 +104,11 @@ class ZoneSearch:
                 yield SearchState(fewer, latest)
         if not (is_placed or is_near):
             return
-        wanted = self.wanted(latest, layout, whole=is_placed)
+        wanted = self.changed_states(latest, layout, checks_contact=is_placed)
         if wanted is not None:
-            edges = proposed if proposed.is_proper else layout.towards(proposed)
+            edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
-            # The ends of the same zones move without that.
+            # For the same zones there is nothing to change: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):
                 yield found
         if not is_placed:
@@ -112,66 +116,76 @@ class ZoneSearch:
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
             yield SearchState(slipping, latest)
-        if self.pulls(latest):
-            parted = self.parted(latest, layout)
-            if parted is not None:
-                yield SearchState(parted, latest)
+        if self.has_tension(latest):
+            opened = self.with_gap_at_tension(latest, layout)
+            if opened is not None:
+                yield SearchState(opened, latest)
 
-    def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
-        """Return the states that a solution calls for; None where nodes in contact have them.
+    def changed_states(
+        self, latest: MeshSolution, layout: Layout, *, checks_contact: bool
+    ) -> States | None:
+        """Return the states that a solution calls for; None if no node in contact changes.
 
-        Violations up to `STILL` of what the residual of a result may have are no reason for another
-        state: with all of that, zones of slip at edges are missed on which the creepage of a wide,
-        thin covering depends. At finite strain all of it is none, for the correction may leave it.
-        Nor are those of the nodes next to the end of a zone, which may be misplaced. ``whole``:
-        whether contact is examined too; until the edges are placed, only stick and slip.
+        Violations up to `NEGLIGIBLE` times the tolerance change no state. If all of the tolerance
+        were allowed, slip zones at edges would be missed on which the creepage of a wide, thin
+        covering depends. At finite strain all of it is allowed, as the correction may leave as
+        much. Nodes next to the ends of zones do not count, as the ends may be misplaced.
+
+        ``checks_contact``: whether to check contact too; until the edges are placed, only stick and
+        slip are checked.
         """
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
-            slack *= STILL
-        wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
+            slack *= NEGLIGIBLE
+        wanted = (next_states if checks_contact else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
-        differs[ends] = False  # ends belong to two zones alike
+        differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
-        return next_slip(latest.problem, latest.state, slack) if whole else wanted
+        return next_slip(latest.problem, latest.state, slack) if checks_contact else wanted
 
-    def pulls(self, latest: Round) -> bool:
-        """Return whether surfaces in contact pull at each other, but in the elements at edges."""
+    def has_tension(self, latest: MeshSolution) -> bool:
+        """Return whether there is tension in the contact, outside the elements at edges."""
         return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 
-    def parted(self, latest: Round, layout: Layout) -> Layout | None:
-        """Return the zones with a free one where the surfaces pull hardest; None if not in one."""
+    def with_gap_at_tension(self, latest: MeshSolution, layout: Layout) -> Layout | None:
+        """Return the zones with a free zone where the tension is highest.
+
+        Return None where the interval under tension is not within one zone.
+        """
         lowest, pulls = int(np.argmin(latest.pressure)), latest.pressure < 0.0
         first, last = next(run for run in runs(pulls) if run[0] <= lowest <= run[1])
-        return layout.parted(float(latest.x[first]), float(latest.x[last]))
+        return layout.with_gap(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
-        self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
+        self, latest: MeshSolution, wanted: States | None, edges: Layout, geometry: Geometry
     ) -> SearchState | None:
-        """Find the zones between known edges, where a solution does not agree with its own.
+        """Return the stick and slip zones between given edges, by the active set.
 
-        Return None where the nodes keep their states, or where the zones have no layout.
+        It holds the contact set, and starts from the states ``wanted`` or, if None, those of the
+        solution. Return None where the nodes keep their states, or the zones have no layout.
         """
         given = latest.state.states
         found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
         if np.array_equal(found.states, given):
             return None
         pieces = contact_intervals(edges.zones)
-        layout = Layout.found(latest.problem.x, found, self.nip.friction, *pieces)
+        layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
-        layout = layout.of_length(self._shortest(layout), keeps_stick=_keeps_stick(latest))
+        layout = layout.without_short_zones(
+            self._shortest(layout), keeps_stick=_keeps_stick(latest)
+        )
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
-    def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout | None:
-        """Return the layout with slip at edges, where it has a length beyond the errors of edges.
+    def slipping_at_edges(self, latest: MeshSolution, layout: Layout) -> Layout | None:
+        """Return the layout with slip zones added at edges that the solution sticks up to.
 
-        Return None where there is none.
+        Return None if none would be as long as the shortest relevant zone.
         """
         if self.nip.friction == 0.0:
             return None
@@ -184,6 +198,6 @@ class ZoneSearch:
         return shortest_zone(self.nip, self.model, layout.width)
 
 
-def _keeps_stick(latest: Round) -> bool:
-    """Return whether one zone of stick must be left, from which a wanted traction is found."""
+def _keeps_stick(latest: MeshSolution) -> bool:
+    """Return whether a stick zone must remain, as a prescribed traction needs one."""
     return latest.problem.control.traction is not None

@@ -1,4 +1,4 @@
-"""The first guess of the half-width of the contact."""
+"""The first estimate of the half-width of the contact."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from rollnip.rolling.surfaces import PairKernels
 
 
 def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
-    """Return the half-width [mm] of elliptic pressure that closes the gap at centre and edge.
+    """Return the half-width [mm] of the elliptic pressure that closes the gap at centre and edge.
 
-    Exact for half-spaces (Hertz), within some tens of per cent for layers.
+    It is exact for half-spaces (Hertz), and within some tens of per cent for layers.
 
     Raises
     ------

@@ -38,16 +38,16 @@ class PairKernels:
     Attributes
     ----------
     upper, lower : linear.
-    second_upper, second_lower : of second order; None also where the model leaves it out.
-    held : all displacements beyond the linear ones to use whatever the tractions; None: always
-        those of the tractions at hand.
+    second_upper, second_lower : of second order; None also where the model neglects it.
+    held : displacements beyond the linear ones, kept fixed whatever the tractions; None: compute
+        them from the tractions.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
-    joint : see `joint_kernel`; None where terms that follow the solution need each surface by
-        itself.
+    joint : see `joint_kernel`; None where terms that depend on the solution need the two surfaces
+        separately.
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
-    pressed : u_z of both surfaces together under elliptic pressures on contacts of any width up
-        to the smaller radius.
+    pressed : sum of u_z of both surfaces under elliptic pressures on contacts of any width up to
+        the smaller radius.
     """
 
     upper: SurfaceKernels | None
@@ -62,7 +62,7 @@ class PairKernels:
 
     @property
     def heat_beyond(self) -> tuple[float, float]:
-        """Heat inside the upper and the lower roller beyond the linear one [N/mm]."""
+        """Viscous loss in the upper and the lower roller beyond the linear one [N/mm]."""
         return (0.0, 0.0) if self.held is None else self.held.lost
 
     @property
@@ -72,17 +72,17 @@ class PairKernels:
 
     @property
     def is_fixed(self) -> bool:
-        """Return whether no displacement beyond the linear ones follows the tractions."""
+        """Return whether displacements beyond the linear ones, if any, are held fixed."""
         return self.second_upper is None and self.second_lower is None
 
     def held_stretch(self, x: Array) -> Array | None:
-        """Stretch of both surfaces beyond the linear one, integrated between ``x`` (n,) if held."""
+        """Return int of the held stretch beyond the linear one, (2, n-1); None if none is held."""
         if self.held is None or self.held.stretch is None:
             return None
         return np.stack([one.over(x) for one in self.held.stretch])
 
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
-        """Displacements beyond the linear ones under tractions at nodes[1:-1], as functions."""
+        """Return the displacements beyond the linear ones due to tractions at nodes[1:-1]."""
         functions: list[Field | None] = []
         ends: list[tuple[float, float]] = []
         sides = (self.upper, self.second_upper, 1.0), (self.lower, self.second_lower, -1.0)
@@ -101,7 +101,7 @@ class PairKernels:
 
 
 def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None) -> PairKernels:
-    """Tabulate the influence functions of both rollers on one window, or take them from a cache."""
+    """Return the influence functions of both rollers, tabulated on one window or from a cache."""
     cache = KernelCache() if cache is None else cache
     make = partial(_pair_kernels, nip, geometry, cache)
     kind = geometry, has_no_second_order(nip, geometry), nip.friction > 0.0
@@ -109,7 +109,7 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
 
 
 def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
-    """Return whether no terms of the contact conditions follow the solution."""
+    """Return whether no term of the contact conditions depends on the solution."""
     if isinstance(nip.tangential, Torque):
         return False
     return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
@@ -142,7 +142,7 @@ def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1].
+    """A mesh, and the response of both surfaces at nodes[1:] to unit tractions at nodes[1:-1].
 
     Attributes
     ----------
@@ -154,8 +154,8 @@ class Mesh:
     per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa];
         empty where a contact needs no more than `PairKernels.joint`.
     influence : of a contact problem on these nodes; empty with a sheet.
-    kernels : the influence functions they come from.
-    held : second-order displacements at nodes[1:] that the kernels hold; None: they hold none.
+    kernels : the influence functions evaluated.
+    held : displacements beyond the linear ones at nodes[1:] that ``kernels`` hold; None: none.
     """
 
     nodes: Array
@@ -171,7 +171,7 @@ class Mesh:
 
     @classmethod
     def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision) -> Self:
-        """Evaluate the influence functions of both surfaces on a mesh."""
+        """Return the mesh with the influence functions of both surfaces evaluated on it."""
         unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
         weights = load_weights(fine.nodes)
         places = nodes[1:], fine.nodes
@@ -198,34 +198,34 @@ class Mesh:
         )
 
     def acting(self, traction: Array) -> Array:
-        """Return a traction at nodes[1:-1] as it acts at the finer nodes, without both ends."""
+        """Return the traction that acts at the finer nodes[1:-1], see `Subdivision`."""
         acting = self.fine.acting
         return traction if acting is None else np.asarray(acting[1:-1, 1:-1] @ traction)
 
     def between(self, traction: Array) -> Array:
-        """Return a traction at nodes[1:-1] interpolated to the finer nodes, without both ends."""
+        """Return a traction at nodes[1:-1] interpolated to the finer nodes[1:-1]."""
         values = self.fine.values
         return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
 
-    def pulls_at_edge(self, pressure: Array) -> bool:
-        """Return whether surfaces in contact pull at each other in the elements at the edges.
+    def has_tension_at_edge(self, pressure: Array) -> bool:
+        """Return whether there is tension in the elements at the edges.
 
-        An edge that lies outwards by delta of where it should leaves
-        p ~ sqrt(y) - delta/(2 sqrt(y)) beside it: negative where y < delta/2. So it is placed only
-        to a part of that element, which beside a short zone is far less than the tolerance.
+        An edge that lies too far out by delta has p ~ sqrt(y) - delta/(2 sqrt(y)) beside it, which
+        is negative where y < delta/2. So tension shows an error of part of that element, which
+        beside a short zone is far less than the tolerance.
 
-        ``pressure``: at nodes[1:-1] of the elements [MPa].
+        ``pressure``: at nodes[1:-1] of the mesh [MPa].
         """
         return bool(np.any(self.acting(pressure)[self.is_beside_edge] < 0.0))
 
     def peaks_at_edge(self, pressure: Array) -> bool:
-        """Return whether the pressure is highest in the element at an edge, or where that ends.
+        """Return whether the pressure is highest in the element at an edge, or at its inner node.
 
-        An edge that lies inwards by delta of where it should leaves
-        p ~ sqrt(y) + delta/(2 sqrt(y)) beside it. On an element that is short enough this exceeds
-        all other pressures: no peak, but a singularity that grows with finer meshes.
+        An edge that lies too far in by delta has p ~ sqrt(y) + delta/(2 sqrt(y)) beside it. In a
+        short enough element this exceeds all other pressures: not a peak but a singularity, which
+        grows with finer meshes.
 
-        ``pressure``: at nodes[1:-1] of the elements [MPa].
+        ``pressure``: at nodes[1:-1] of the mesh [MPa].
         """
         edges = np.array(self.fine.edges, dtype=int)
         beside = edges + np.resize([1, -1], edges.size)
@@ -235,7 +235,7 @@ class Mesh:
 
     @property
     def is_beside_edge(self) -> NDArray[np.bool_]:
-        """Return which of the finer nodes lie in the element beside an edge, or beyond it."""
+        """Return which of the finer nodes[1:-1] lie at an edge or in the element inside it."""
         x, inner, edges = self.fine.nodes[1:-1], self.inner, self.fine.edges
         out = np.zeros(x.size, dtype=bool)
         for trailing, leading in zip(edges[::2], edges[1::2], strict=True):
@@ -251,16 +251,16 @@ class Mesh:
         return pressure_work(self.acting(traction), displacement)
 
     def finer(self, u: Displacements) -> Displacements:
-        """Return displacements at nodes[1:] interpolated to the finer nodes but the first."""
+        """Return displacements at nodes[1:] interpolated to the finer nodes[1:]."""
         values = self.fine.values
         return u if values is None else Displacements(u.four @ values[1:, 1:].T)
 
     def sums(self, pieces: Array) -> Array:
-        """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
+        """Return, for each interval of nodes[1:], the sum of ``pieces`` within it."""
         return self.fine.sums(pieces)
 
     def linear_displacements(self, state: ContactState) -> Displacements:
-        """Return the displacements at nodes[1:], linear in the tractions."""
+        """Return the linear part of the displacements at nodes[1:]."""
         tractions = np.array([state.pressure, state.shear]).T
         if self.per_traction.size:
             six, m, n = self.per_traction.shape  # one product is faster than six
@@ -269,7 +269,7 @@ class Mesh:
         return self.linear_displacements_at(self.nodes[1:], state)
 
     def linear_displacements_at(self, x: Array, state: ContactState) -> Displacements:
-        """Return the displacements at ``x``, linear in the tractions."""
+        """Return the linear part of the displacements at ``x``."""
         acting = self.acting(np.array([state.pressure, state.shear]).T)
         return Displacements.under(pair_displacements(self.kernels, x, self.fine.nodes, acting))
 
@@ -285,7 +285,7 @@ class Mesh:
         return linear + (self.second(state, self.nodes[1:]) if held is None else held)
 
     def uncut(self, u: Displacements) -> Displacements:
-        """Return displacements at nodes[1:] with the short waves that were cut from those held."""
+        """Return displacements at nodes[1:] including the short waves cut from those held."""
         held = self.kernels.held
         if held is None or self.held is None or not held.rough:
             return u
@@ -293,11 +293,11 @@ class Mesh:
         return Displacements(u.four + four)
 
     def holding(self, kernels: PairKernels) -> Self:
-        """Return this mesh with the second order that other influence functions hold."""
+        """Return this mesh with the displacements beyond the linear ones that ``kernels`` hold."""
         return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))
 
     def second(self, state: ContactState, x: Array) -> Displacements:
-        """Return second-order displacements at ``x``: those held, or those of a solution."""
+        """Return second-order displacements at ``x``: those held, otherwise the solution's."""
         held = self.kernels.held
         return (self.second_fields(state) if held is None else held).at(x)
 
@@ -308,13 +308,13 @@ class Mesh:
 
 
 def pressure_work(traction: Array, displacement: Array) -> float:
-    """Int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
+    """Return int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
     means = 0.5 * (traction + np.append(traction[1:], 0.0))
     return float(means @ (displacement[1:] - displacement[:-1]))
 
 
 def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None) -> Mesh:
-    """Evaluate the influence functions of both surfaces on a mesh.
+    """Return the mesh with the influence functions of both surfaces evaluated on it.
 
     Without ``fine`` tractions are linear between the nodes themselves.
     """
@@ -328,17 +328,17 @@ def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:
 def pair_displacements(
     kernels: PairKernels, x: Array, nodes: Array, tractions: Array | None = None
 ) -> Array:
-    """Displacements of both surfaces at ``x`` (m,) under tractions that are linear between nodes.
+    """Return the displacements of both surfaces at ``x`` (m,), with tractions linear between nodes.
 
-    Of each surface u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z in its own frame.
+    For each surface u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z in its own frame.
 
     Parameters
     ----------
-    tractions : (N-1, s) sets of values at nodes[1:-1]; None: a unit value at each of these.
+    tractions : (N-1, s) sets of values at nodes[1:-1]; None: a unit value at each in turn.
 
     Returns
     -------
-    (6, m, s) by xx, zz, xz of the upper, then of the lower surface; a rigid one does not move.
+    (6, m, s) by xx, zz, xz of the upper, then of the lower surface; 0 for a rigid one.
     """
     made = surface_displacements(kernels.together, x, nodes, tractions)
     if kernels.together.count == 6:
@@ -349,18 +349,18 @@ def pair_displacements(
 
 
 def surface_displacements(kernel: Kernel, x: Array, nodes: Array, tractions: Array | None) -> Array:
-    """Displacements (channels, m, s) of a kernel with several channels, as `pair_displacements`."""
+    """Return the displacements by all channels, (channels, m, s), as `pair_displacements` does."""
     if tractions is None:
         return displacement_matrix(kernel, x, nodes)
     return displacement_under(kernel, x, nodes, tractions)
 
 
 def _influence(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
-    """Gap and creep per nodal pressure and shear (theory section 5), `ContactProblem.influence`.
+    """Return `ContactProblem.influence`: gap and creep per nodal traction (theory section 5).
 
-    The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx. The pressure is
-    the same on both surfaces, the shear the opposite. Without friction creep and shear do not
-    matter, and are left at zero.
+    The creep of an interval is int (du_x/dx - u_z/R) dx of the upper minus that of the lower
+    surface. The pressure is the same on both surfaces, the shear opposite. Without friction, creep
+    and shear play no part, and their blocks are zero.
 
     Parameters
     ----------
@@ -378,13 +378,13 @@ def _influence(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
     np.subtract(xx[1:], xx[:-1], out=out[n:, n:])
     if shorter is not None:
         out[n:] -= fine.integrated(shorter)
-    for leading in fine.edges[1::2]:  # the surfaces may stick up to it
+    for leading in fine.edges[1::2]:  # surfaces may stick up to a leading edge
         out[n + leading - 1, n + leading - 1] *= 1.0 - CREEP_TO_EDGE
     return out
 
 
 def _shorter(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
-    """Return u_z/R of the upper less the lower surface per pressure and per shear; None: 0."""
+    """Return u_z/R of the upper minus the lower surface, per pressure and per shear; None: 0."""
     if not any(hoops):
         return None
     _, zz_u, xz_u, _, zz_l, xz_l = per_traction

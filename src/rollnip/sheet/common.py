@@ -12,7 +12,7 @@ from rollnip.model import BEYOND, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.no_nip import impossible
 from rollnip.reservation import Reservation, instead_of
-from rollnip.rolling import Round
+from rollnip.rolling import MeshSolution
 from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.refine import Refined
@@ -105,7 +105,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 
 
 def sheet_verdict(
-    nip: Nip, model: Model, refined: Refined[AnyAttempt], final: Round
+    nip: Nip, model: Model, refined: Refined[AnyAttempt], final: MeshSolution
 ) -> tuple[bool, str]:
     """Return whether the solution is valid, and what to do; if it is, the words up to it."""
     if not refined.attempt.settled:

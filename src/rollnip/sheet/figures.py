@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
-from rollnip.rolling.round import scale_of_creepage
+from rollnip.rolling.mesh_solution import scale_of_creepage
 from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.system import frictions_of

@@ -14,7 +14,7 @@ from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
-from rollnip.rolling.round import scale_of_creepage
+from rollnip.rolling.mesh_solution import scale_of_creepage
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rolling import PairKernels
-from rollnip.rolling.round import peak_pressure
+from rollnip.rolling.mesh_solution import peak_pressure
 from rollnip.sheet.factorised import Factorised
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged import change_of, lagged_terms, missed, path_turn, pulls_of, sheet_rate

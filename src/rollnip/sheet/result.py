@@ -13,7 +13,7 @@ from rollnip._results.records import Zone
 from rollnip._sealed import Sealed
 from rollnip.contact import ContactZone, Layout, State
 from rollnip.rollers import Side
-from rollnip.rolling import Round
+from rollnip.rolling import MeshSolution
 
 Array = NDArray[np.float64]
 _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
@@ -148,7 +148,7 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
     return slipping / (zones[-1].stop - zones[0].start)
 
 
-def pull_in_slip(one: Round) -> float:
+def pull_in_slip(one: MeshSolution) -> float:
     """Return int |q| dx of an interface where it slips [N/mm]."""
     slips = one.state.states > State.STICK
     return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))

@@ -1,8 +1,9 @@
 """The search for the zones of both interfaces and their ends, on meshes of one size.
 
 Edges and transitions lie at nodes, and the tractions at the first nodes beside them say where they
-move (`contact.Layout.moved`), which is Newton's method. Once the ends are about right, a solution
-tells whether its zones are right too; where they are not, stick and slip are sought node by node.
+move (`contact.Layout.with_proposed_ends`), which is Newton's method. Once the ends are about right,
+a solution tells whether its zones are right too; where they are not, stick and slip are sought node
+by node.
 """
 
 from __future__ import annotations

@@ -16,7 +16,14 @@ from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
-from rollnip.rolling import Displacements, Powers, Round, claims, stretch_excess, surface_depths
+from rollnip.rolling import (
+    Displacements,
+    MeshSolution,
+    Powers,
+    claims,
+    stretch_excess,
+    surface_depths,
+)
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import pair_displacements
@@ -309,7 +316,7 @@ class SheetSolution(SmoothSolution):
         shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
-    def _of_side(self, side: int) -> Round:
+    def _of_side(self, side: int) -> MeshSolution:
         """Return the last round as that of one interface."""
         return replace(self.final, state=self._state.side(side))
 

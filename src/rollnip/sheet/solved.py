@@ -14,7 +14,13 @@ from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
+from rollnip.rolling import (
+    MeshSolution,
+    PairKernels,
+    half_width_guess,
+    pair_kernels,
+    with_second_order,
+)
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
@@ -95,7 +101,7 @@ def _bending_freely(
     model, kernels, refined, left = _refined(nip, model, cache)
     left = simpler + left
     require_grip(nip, refined)
-    final = as_round(nip, refined)
+    final = as_mesh_solution(nip, refined)
     converged, status = (
         (False, simpler[0].text) if simpler else sheet_verdict(nip, model, refined, final)
     )
@@ -177,8 +183,8 @@ def _attempt(
         return None
 
 
-def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
-    """Return a solution as the round of a bare nip, with the shear of the upper side."""
+def as_mesh_solution(nip: Nip, refined: Refined[SheetAttempt]) -> MeshSolution:
+    """Return a solution in the form of a bare nip's, with the shear of the upper side."""
     attempt, figures = refined.attempt, refined.figures
     mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
     total = attempt.state.creepage + attempt.state.creepage_lower
@@ -192,7 +198,7 @@ def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
         friction=nip.friction,
         control=Control(load=None, approach=attempt.state.approach, traction=None, creepage=total),
     )
-    return Round(
+    return MeshSolution(
         mesh=mesh,
         problem=problem,
         state=attempt.state,

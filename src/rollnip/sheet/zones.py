@@ -139,7 +139,7 @@ class Zones(SideZones):
         """
         x = problem.mesh.inner
         proposed = [
-            side.moved(x, state.side(number), friction)
+            side.with_proposed_ends(x, state.side(number), friction)
             for number, (side, friction) in enumerate(
                 zip(self.sides, problem.frictions, strict=True)
             )
@@ -160,7 +160,7 @@ class Zones(SideZones):
         """Return the edges, moved towards proposed ones as far as the zones of both sides allow."""
         most, edges = LONGEST_MOVE * self.width, np.array(self.edges)
         upper, lower = (
-            side.towards(wanted).breaks[[0, -1]] - edges
+            side.stepped_towards(wanted).breaks[[0, -1]] - edges
             for side, wanted in zip(self.sides, proposed, strict=True)
         )
         moves = np.where(np.abs(upper) < np.abs(lower), upper, lower)
@@ -199,7 +199,7 @@ class Zones(SideZones):
     ) -> Zones | None:
         """Return the zones of nodal states in a contact with known edges; None if unclear."""
         sides = [
-            Layout.found(x, state.side(number), friction, edges)
+            Layout.from_nodes(x, state.side(number), friction, edges)
             for number, friction in enumerate(frictions)
         ]
         upper, lower = sides

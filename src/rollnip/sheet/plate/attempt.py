@@ -45,7 +45,7 @@ def shear_over(attempt: PlateAttempt) -> float:
 def pulls_at_edges(attempt: PlateAttempt) -> bool:
     """Return whether sheet and surfaces pull at each other beside an edge; see `Mesh`."""
     sides = zip(attempt.problem.meshes, attempt.state.pressure, strict=True)
-    return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
+    return any(mesh.has_tension_at_edge(pressure) for mesh, pressure in sides)
 
 
 def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:

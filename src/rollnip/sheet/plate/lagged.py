@@ -13,7 +13,7 @@ from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
-from rollnip.rolling.round import scale_of_creepage
+from rollnip.rolling.mesh_solution import scale_of_creepage
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
 from rollnip.sheet.plate.curved import CurvedLoad, curved_load, is_stiff, places_along
 from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, path_ratio

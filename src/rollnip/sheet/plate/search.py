@@ -2,8 +2,9 @@
 
 Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
 (`first`). Edges and transitions then lie at nodes of the interface that they belong to, and the
-tractions at the first nodes beside them say where they move (`contact.Layout.moved`). Where a
-solution violates its conditions, the states of its nodes are found again.
+tractions at the first nodes beside them say where they move
+(`contact.Layout.with_proposed_ends`). Where a solution violates its conditions, the states of its
+nodes are found again.
 """
 
 from __future__ import annotations

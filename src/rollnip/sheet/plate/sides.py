@@ -15,7 +15,7 @@ from rollnip.influence import load_weights
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.round import peaks_alike
+from rollnip.rolling.mesh_solution import peaks_alike
 from rollnip.rolling.surfaces import Mesh
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage
 from rollnip.rollers import SIDES
-from rollnip.rolling import Displacements, Round, stretch_excess
+from rollnip.rolling import Displacements, MeshSolution, stretch_excess
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
@@ -123,7 +123,7 @@ class PlateSolution(SheetSolution):
         return cast(Refined[PlateAttempt], refined)
 
     @cached_property
-    def _lower_round(self) -> Round:
+    def _lower_round(self) -> MeshSolution:
         return lower_round(self._plate_refined, self.final)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
@@ -131,7 +131,7 @@ class PlateSolution(SheetSolution):
         sign = 1.0 if roller == "upper" else -1.0
         return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
 
-    def _of_side(self, side: int) -> Round:
+    def _of_side(self, side: int) -> MeshSolution:
         return self.final if side == 0 else self._lower_round
 
     def _on_lower(self, x: Array, traction: Array) -> Array:
@@ -204,7 +204,7 @@ class PlateSolution(SheetSolution):
         return out
 
 
-def plate_round(refined: Refined[PlateAttempt]) -> Round:
+def plate_round(refined: Refined[PlateAttempt]) -> MeshSolution:
     """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
     attempt = refined.attempt
     state, problem = attempt.state, attempt.problem
@@ -224,7 +224,7 @@ def plate_round(refined: Refined[PlateAttempt]) -> Round:
         creepage_lower=state.creepages[1],
     )
     n = upper.inner.size
-    return Round(
+    return MeshSolution(
         mesh=upper,
         problem=_as_problem(attempt, 0),
         state=both,
@@ -245,7 +245,7 @@ def plate_round(refined: Refined[PlateAttempt]) -> Round:
     )
 
 
-def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
+def lower_round(refined: Refined[PlateAttempt], upper: MeshSolution) -> MeshSolution:
     """Return the round of the lower interface beside that of the upper one."""
     attempt = refined.attempt
     mesh, lagged = attempt.problem.meshes[1], attempt.lagged

@@ -14,7 +14,13 @@ from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
+from rollnip.rolling import (
+    MeshSolution,
+    PairKernels,
+    half_width_guess,
+    pair_kernels,
+    with_second_order,
+)
 from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.common import (
@@ -163,7 +169,10 @@ def _solution(
 
 
 def _verdict(
-    nip: Nip, model: Model, refined: Refined[PlateAttempt], rounds: tuple[Round, Round]
+    nip: Nip,
+    model: Model,
+    refined: Refined[PlateAttempt],
+    rounds: tuple[MeshSolution, MeshSolution],
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
     attempt = refined.attempt
@@ -187,7 +196,7 @@ def _verdict(
     return converged, status
 
 
-def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
+def _as_allowed(nip: Nip, model: Model, side: int, final: MeshSolution) -> MeshSolution:
     """Return one side for its verdict: without error of a peak that is as well known as allowed."""
     peak = final.error.peak_pressure
     if peak > Bending(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
@@ -195,7 +204,7 @@ def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 
 
-def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> StrainSizes:
+def _strains(nip: Nip, model: Model, rounds: tuple[MeshSolution, MeshSolution]) -> StrainSizes:
     """Return the larger strains of both interfaces."""
     one, two = (StrainSizes.of(nip, model, final) for final in rounds)
     return StrainSizes(

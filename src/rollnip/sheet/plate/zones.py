@@ -103,7 +103,7 @@ class PlateZones(SideZones):
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
-            proposed = side.moved(x, state.side(number), friction).breaks
+            proposed = side.with_proposed_ends(x, state.side(number), friction).breaks
             if called is not None:
                 proposed = np.where(np.isfinite(proposed), proposed, called.sides[number].breaks)
             trailing, leading = side.edges
@@ -160,7 +160,7 @@ class PlateZones(SideZones):
     def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:
         """Return the zones of nodal states between the edges of these; None if unclear."""
         sides = [
-            Layout.found(mesh.inner, state.side(number), friction, side.edges)
+            Layout.from_nodes(mesh.inner, state.side(number), friction, side.edges)
             for number, (mesh, friction, side) in enumerate(
                 zip(problem.meshes, problem.frictions, self.sides, strict=True)
             )

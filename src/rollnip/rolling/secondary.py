@@ -10,27 +10,27 @@ from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
 from rollnip.rolling.power_balance import Powers, powers
-from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array
 
-_LEAST_SIZE = 0.05  # of what a figure may be at most: the least size that its error counts against
+_LEAST_SIZE = 0.05  # least size for relative errors, over the largest value a figure may have
 # Least error over the size, times the square of the number of elements: measured on random nips
 # against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
 # tests judge others).
 _LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
-def further_figures(nip: Nip, geometry: Geometry, found: Round) -> Further:
-    """Return the further figures of a solution."""
-    return further_of(powers(nip, geometry, found), found)
+def secondary_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution."""
+    return secondary_figures_of(powers(nip, geometry, found), found)
 
 
-def further_of(spent: Powers, found: Round) -> Further:
-    """Return the further figures of a solution whose powers are known."""
+def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution, given its powers."""
     mesh, state = found.mesh, found.state
     _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-    return Further(
+    return SecondaryFigures(
         traction=float(mesh.weights @ state.shear),
         driving_upper=spent.driving_upper,
         driving_lower=spent.driving_lower,
@@ -42,11 +42,13 @@ def further_of(spent: Powers, found: Round) -> Further:
     )
 
 
-def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]) -> Further | None:
-    """Return the estimated errors of the further figures from their changes between meshes.
+def secondary_errors(
+    nip: Nip, latest: MeshSolution, sizes: Sequence[tuple[int, SecondaryFigures]]
+) -> SecondaryFigures | None:
+    """Return the estimated errors of the secondary figures from their changes between meshes.
 
-    As for `Figures`, the last change counts by the order that the meshes show, earlier changes by
-    the second order, and no error is less than the least of such meshes in random nips.
+    As for `Figures`, the last change is taken with the order that the meshes show, earlier changes
+    with second order, and no error is below the least that such meshes have on random nips.
 
     Parameters
     ----------
@@ -66,22 +68,22 @@ def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]
         else np.ones(_LEAST_ERROR.size)
     )
     error = errors_from_changes(counts, values, order)
-    floor = _LEAST_ERROR * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
+    floor = _LEAST_ERROR * secondary_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
     error = np.maximum(error, floor)
     if not isinstance(nip.tangential, Traction):
-        error[1:3] = np.maximum(error[1:3], error[0])  # torques pass the traction on
-    return Further(*error.tolist())
+        error[1:3] = np.maximum(error[1:3], error[0])  # torques contain the traction
+    return SecondaryFigures(*error.tolist())
 
 
-def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:
-    """Return the sizes that errors of `Further` are measured against, (8,).
+def secondary_sizes(nip: Nip, latest: MeshSolution, figures: SecondaryFigures) -> Array:
+    """Return the sizes that errors of `SecondaryFigures` are relative to, (8,).
 
-    Each is at least a part of the largest value that the figure may have: a traction or a loss that
-    is zero by symmetry has no relative accuracy. A figure that is zero without friction or without
-    memory has no error.
+    Each is at least a share of the largest value that the figure may have, as a traction or loss
+    that is zero by symmetry has no relative error. A figure that vanishes for lack of friction or
+    viscosity has size 0, so no error.
     """
     load, width = latest.figures.load, latest.figures.nip_width
-    work = load * 0.5 * width * nip.curvature  # of the load on the slope at the edge
+    work = load * 0.5 * width * nip.curvature  # of the load on the slope of the gap at an edge
     grip = min(nip.friction, 1.0)
     traction = max(abs(figures.traction), _LEAST_SIZE * grip * load)
     friction = max(abs(figures.friction), _LEAST_SIZE * grip * work)

@@ -1,4 +1,4 @@
-"""One round: the solution on one mesh, its figures and their estimated errors."""
+"""The solution on one mesh, its figures and their estimated errors."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Array, Mesh
 
-_ALIKE = 1e-4  # peaks that differ by less agree in the four digits that are shown
+_EQUAL_PEAKS = 1e-4  # relative difference of peaks that agree in the four digits shown
 
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """The figures whose accuracy is watched; creepage is nan where it is not defined."""
+    """The figures held to the tolerance, or their errors; creepage is nan where not defined."""
 
     approach: float
     load: float
@@ -38,7 +38,7 @@ class Figures:
         )
 
     def change_from(self, other: Figures) -> Figures:
-        """Return by how much each figure differs from another one."""
+        """Return the absolute difference of each figure from that of ``other``."""
         return Figures(*np.abs(self.array() - other.array()).tolist())
 
     def times(self, factor: float) -> Figures:
@@ -47,16 +47,16 @@ class Figures:
 
 
 @dataclass(frozen=True, slots=True)
-class Further:
-    """Figures that a solution reports besides `Figures`, or the errors of these.
+class SecondaryFigures:
+    """Figures without a tolerance of their own, or their errors.
 
     Attributes
     ----------
     traction : int q dx [N/mm].
     driving_upper, driving_lower : torque of each axle over the radius of its roller [N/mm].
-    friction : lost by slip per rolled distance [N/mm].
-    lost_upper, lost_lower : inside each roller per rolled distance [N/mm].
-    contact_length : of all contact intervals [mm].
+    friction : loss by slip per distance rolled [N/mm].
+    lost_upper, lost_lower : loss inside each roller per distance rolled [N/mm].
+    contact_length : total length of the contact intervals [mm].
     peak_pressure_x : place of the highest pressure [mm].
     """
 
@@ -75,16 +75,16 @@ class Further:
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
-    """How far iterations of contact and correction got that found no solution.
+class IterationFailure:
+    """Why the finite-strain iteration of contact and correction failed, and how far it got.
 
     Attributes
     ----------
-    cause : a layer was pressed in by its whole thickness before the first of them ("depth"), no
+    cause : before the first iteration a layer was pressed in by its whole thickness ("depth"), no
         equilibrium was found ("balance"), contact, stick and slip did not settle ("contact"), or
         the correction still changed after the last iteration allowed ("iterations").
     iterations : how often a correction was found.
-    change : the last change of the correction, over the first-order terms; inf without any.
+    change : last change of the correction, over the first-order terms; inf if there was none.
     """
 
     cause: Literal["depth", "balance", "contact", "iterations"]
@@ -93,27 +93,26 @@ class Ended:
 
 
 @dataclass(frozen=True)
-class Round:
+class MeshSolution:
     """The solution on one mesh.
 
     Attributes
     ----------
-    mesh, problem, state, second : the discrete problem, its solution, and the second-order terms
-        of that.
+    mesh, problem, state, second : the mesh, the discrete problem, its solution, and the
+        second-order terms that follow from the solution.
     zones : contact zones from trailing to leading edge.
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
-    steps : linear systems solved in all rounds so far.
-    settled : whether states and second-order terms have settled.
+    steps : linear systems solved on all meshes so far.
+    settled : whether the iteration of states and second-order terms converged.
     geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
         "curved", the traction for a torque), relative to approach and creepage.
-    residual : largest relative violation of the contact conditions, evaluated again; inf where
-        it was not evaluated.
-    make_further_error : evaluates `further_error`, which few ask for; None where unknown.
-    cut : largest relative violation of the contact conditions by what "finite" leaves out, because
-        it is too short for the contact.
-    ended : how far the iterations of "finite" got where they found no solution; None where they
-        did, or where there were none.
+    residual : largest relative violation of the contact conditions, computed afresh; inf where not
+        computed.
+    make_secondary_error : evaluates `secondary_error` on demand; None where unknown.
+    cut : largest relative violation of the contact conditions by the waves that "finite" cuts,
+        because they are too short for the contact.
+    failure : why the finite-strain iteration failed; None where it did not, or there was none.
     """
 
     mesh: Mesh
@@ -127,9 +126,9 @@ class Round:
     settled: bool
     geometry_change: float
     residual: float = inf
-    make_further_error: Callable[[], Further | None] | None = None
+    make_secondary_error: Callable[[], SecondaryFigures | None] | None = None
     cut: float = 0.0
-    ended: Ended | None = None
+    failure: IterationFailure | None = None
 
     @cached_property
     def displacements(self) -> Displacements:
@@ -137,20 +136,20 @@ class Round:
         return self.mesh.displacements(self.state)
 
     @cached_property
-    def further_error(self) -> Further | None:
-        """Estimated discretisation error of the further figures; None where unknown."""
-        return None if self.make_further_error is None else self.make_further_error()
+    def secondary_error(self) -> SecondaryFigures | None:
+        """Estimated discretisation error of the secondary figures; None where unknown."""
+        return None if self.make_secondary_error is None else self.make_secondary_error()
 
     @property
     def is_placed(self) -> bool:
-        """Return whether the nodes lie at the ends of its zones, not of some that were guessed."""
+        """Return whether nodes lie at the ends of its zones, unlike in a search node by node."""
         return bool(self.mesh.fine.elements)
 
     @property
     def nodes(self) -> Array:
         """Nodes between which the tractions are linear, (M+1,) [mm]; zero tractions at both ends.
 
-        They may be finer than those of the mesh, at which the contact conditions were solved.
+        They may be finer than the nodes of the mesh, on which the contact conditions were solved.
         """
         return self.mesh.fine.nodes
 
@@ -161,12 +160,12 @@ class Round:
 
     @property
     def pressure(self) -> Array:
-        """Pressure at ``x`` as it acts, see `Subdivision`, (M-1,) [MPa]."""
+        """Acting pressure at ``x``, see `Subdivision`, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.pressure)
 
     @property
     def shear(self) -> Array:
-        """Shear on the upper roller along +x at ``x`` as it acts, (M-1,) [MPa]."""
+        """Acting shear on the upper roller along +x at ``x``, see `Subdivision`, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.shear)
 
     @property
@@ -176,12 +175,12 @@ class Round:
 
 
 def peaks_alike(pressure: Array) -> list[int]:
-    """Return the nodes of the highest pressure: more than one where peaks are equally high.
+    """Return the indices of the highest pressure: several where peaks are equally high.
 
-    They count as equal where they agree to the four digits that are shown: beside both edges of a
-    stiff skin the rounding of a mesh would decide which one is higher.
+    Peaks count as equally high if they agree in the four digits shown. A stiff skin has peaks
+    beside both edges, and rounding would decide which one is higher.
     """
-    (high,) = (pressure >= (1.0 - _ALIKE) * pressure.max()).nonzero()
+    (high,) = (pressure >= (1.0 - _EQUAL_PEAKS) * pressure.max()).nonzero()
     if high.size < 2:
         return [int(pressure.argmax())]
     fence = np.concatenate([[-np.inf], pressure, [-np.inf]])
@@ -191,7 +190,7 @@ def peaks_alike(pressure: Array) -> list[int]:
 
 
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
-    """Highest pressure and its place, by the parabola through the highest node's neighbours.
+    """Return the highest pressure and its place, from the parabola through three nodes.
 
     Of peaks that are equally high the leading one is taken, so that meshes agree on the place.
     """
@@ -199,7 +198,10 @@ def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
 
 
 def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
-    """Height and place of the parabola through a node and its neighbours; at an end the node's."""
+    """Return the vertex of the parabola through node i and its neighbours: height and place.
+
+    It is the node itself at the first and last node, or where the parabola has no maximum.
+    """
     if not 0 < i < x.size - 1:
         return float(pressure[i]), float(x[i])
     rise = (pressure[i] - pressure[i - 1]) / (x[i] - x[i - 1])
@@ -212,8 +214,11 @@ def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
     return float(value), float(place)
 
 
-def excess(nip: Nip, latest: Round, tolerance: float) -> float:
-    """Return the largest estimated error over the tolerance; inf where nothing is pressed."""
+def error_ratio(nip: Nip, latest: MeshSolution, tolerance: float) -> float:
+    """Return the largest estimated relative error, over the tolerance; inf if nothing is pressed.
+
+    Prescribed figures do not count.
+    """
     figures, error = latest.figures, latest.error
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return inf
@@ -232,22 +237,22 @@ def excess(nip: Nip, latest: Round, tolerance: float) -> float:
 
 
 def creepage_scale(nip: Nip, figures: Figures) -> float:
-    """Return the size against which an error of the creepage is measured."""
+    """Return the size that errors of the creepage are relative to."""
     return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * nip.curvature)
 
 
 def scale_of_creepage(creepage: float, slope: float) -> float:
-    """Return the size of the creepage, at least a twentieth of the slope of the gap at the edge.
+    """Return |creepage|, or a twentieth of the slope of the gap at the edge if that is more.
 
-    A creepage that is zero by symmetry has no relative accuracy.
+    A creepage that is zero by symmetry has no relative error.
     """
     return max(0.05 * slope, abs(creepage))  # in this order: max(a, nan) is a
 
 
-def has_grip(latest: Round) -> bool:
+def has_grip(latest: MeshSolution) -> bool:
     """Return whether friction can carry the prescribed traction: |T| < mu F."""
     wanted = latest.problem.control.traction
     limit = latest.problem.friction * latest.figures.load
-    if not latest.geometry_change < 1.0:  # a diverging geometry says nothing of friction
+    if not latest.geometry_change < 1.0:  # diverged second-order terms say nothing of friction
         return True
     return wanted is None or abs(wanted) < max(limit, 1e-9 * latest.figures.load)

@@ -1,4 +1,4 @@
-"""Figures of a round: peak, creepage scale, excess over the tolerance."""
+"""Figures of a solution on one mesh: peak, creepage scale, error over the tolerance."""
 
 from dataclasses import replace
 from math import inf
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import Figures, creepage_scale, excess, peak_pressure, peaks_alike
+from rollnip.rolling import Figures, creepage_scale, error_ratio, peak_pressure, peaks_alike
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FIGURES = Figures(approach=0.2, load=1.5, creepage=0.02, nip_width=4.0, peak_pressure=0.3)
@@ -47,13 +47,13 @@ def test_excess_is_that_of_the_worst_figure(cases, solved):
     nip, _ = cases["II free"]
     final = solved("II free").final
     none = Figures(0.0, 0.0, 0.0, 0.0, 0.0)
-    assert excess(nip, replace(final, error=none), 1e-3) == 0.0
+    assert error_ratio(nip, replace(final, error=none), 1e-3) == 0.0
     for name in ("approach", "creepage", "nip_width", "peak_pressure"):
         size = abs(getattr(final.figures, name))
         wrong = replace(final, error=replace(none, **{name: 2e-3 * size}))
-        assert excess(nip, wrong, 1e-3) == pytest.approx(2.0, rel=1e-12)
+        assert error_ratio(nip, wrong, 1e-3) == pytest.approx(2.0, rel=1e-12)
     # the load is prescribed
-    assert excess(nip, replace(final, error=replace(none, load=1.0)), 1e-3) == 0.0
+    assert error_ratio(nip, replace(final, error=replace(none, load=1.0)), 1e-3) == 0.0
 
 
 def test_excess_of_what_is_not_prescribed(cases, solved):
@@ -61,13 +61,13 @@ def test_excess_of_what_is_not_prescribed(cases, solved):
     final = solved("foam on a plane").final
     none = Figures(0.0, 0.0, 0.0, 0.0, 0.0)
     wrong = replace(final, error=replace(none, load=3e-3 * final.figures.load))
-    assert excess(nip, wrong, 1e-3) == pytest.approx(3.0, rel=1e-12)
+    assert error_ratio(nip, wrong, 1e-3) == pytest.approx(3.0, rel=1e-12)
 
 
 def test_unknown_errors_exceed_everything(cases, solved):
     nip, _ = cases["II free"]
     unknown = replace(solved("II free").final, error=Figures(inf, inf, inf, inf, inf))
-    assert excess(nip, unknown, 0.1) == inf
+    assert error_ratio(nip, unknown, 0.1) == inf
 
 
 def test_figures_are_those_of_the_solution(case, solved):
@@ -95,7 +95,7 @@ def test_figures_are_those_of_the_solution(case, solved):
 def test_no_error_is_small_where_nothing_is_pressed(case, solved):
     final = solved(case[0]).final
     nothing = replace(final, figures=replace(final.figures, peak_pressure=0.0))
-    assert excess(case[1], nothing, 1e-3) == inf
+    assert error_ratio(case[1], nothing, 1e-3) == inf
 
 
 def test_of_peaks_that_are_equally_high_the_leading_one_is_the_place():

@@ -1,4 +1,8 @@
-"""Tractions of a contact: at present places, at arcs, and what they do in linear theory."""
+"""Tractions of a contact, linear between nodes.
+
+They are given at present places, can be moved with the material to its undeformed arcs, and know
+the displacement that linear theory has under them.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +15,23 @@ from rollnip.finite.pull import Tractions
 from rollnip.finite.strip import Array
 
 Linear = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
-"""u_x and u_z of linear theory at some places, under tractions that are linear between nodes.
+"""Displacements u_x and u_z of linear theory under tractions that are linear between nodes.
 
-Its arguments are the places, the nodes (N+1,), and pressure and shear at nodes[1:-1]."""
+Arguments: the places x (n,), the nodes (N+1,), and pressure and shear at nodes[1:-1]."""
 
 
 def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
-    """Return tractions that are linear between nodes, given at all but the first and the last."""
+    """Return tractions that are linear between nodes and zero at the first and the last node.
+
+    Parameters
+    ----------
+    nodes : (N+1,) increasing places [mm].
+    pressure, shear : (N-1,) at nodes[1:-1] [MPa].
+    """
     values = np.zeros((2, nodes.size))
     values[0, 1:-1], values[1, 1:-1] = pressure, shear
     slopes = np.diff(values) / np.diff(nodes)
-    # p, q and their slopes in every interval, and zero on either side
+    # p, q and their slopes in every interval; all zero on either side of the nodes
     pieces = np.zeros((4, nodes.size + 1))
     pieces[:2, 1:-1], pieces[2:, 1:-1] = values[:, :-1], slopes
     starts = np.concatenate([nodes[:1], nodes])
@@ -37,33 +47,33 @@ def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
 
 @dataclass(frozen=True)
 class Acting:
-    """Tractions on a surface, linear between nodes, or a mean of several of them.
+    """Tractions on a surface: a weighted sum of some that are linear between nodes.
 
     Attributes
     ----------
-    parts : share, nodes (N+1,), pressure and shear at nodes[1:-1] of each.
+    parts : of each summand its weight, nodes (N+1,) [mm], pressure and shear at nodes[1:-1] [MPa].
     """
 
     parts: tuple[tuple[float, Array, Array, Array], ...]
 
     @classmethod
     def on(cls, nodes: Array, pressure: Array, shear: Array) -> Acting:
-        """Return tractions between some nodes."""
+        """Return tractions that are linear between some nodes, with the weight 1."""
         return cls(((1.0, nodes, pressure, shear),))
 
     def towards(self, other: Acting, share: float) -> Acting:
-        """Return tractions that are a share of the way to others."""
+        """Return (1 - share) times these tractions plus ``share`` times the others."""
         return Acting(self.times(1.0 - share).parts + other.times(share).parts)
 
     def times(self, factor: float) -> Acting:
-        """Return a multiple of the tractions."""
+        """Return the tractions times a factor."""
         return Acting(tuple((factor * share, nodes, p, q) for share, nodes, p, q in self.parts))
 
     def moved(self, x: Array, arcs: Array) -> Acting:
-        """Return the same with the nodes where the material is that is at them now.
+        """Return the tractions at the undeformed arcs of the material that they act on.
 
-        ``x`` (n,) are increasing places, ``arcs`` those of the material there; beyond them nodes
-        keep their distances.
+        ``x`` (n,) are increasing present places and ``arcs`` (n,) the arcs of the material there,
+        linear between them [mm]; outside them nodes keep their distances.
         """
 
         def at(nodes: Array) -> Array:
@@ -73,12 +83,12 @@ class Acting:
 
     @property
     def tractions(self) -> Tractions:
-        """Pressure, shear and their derivatives as a function of the place."""
+        """Pressure, shear and their derivatives, as a function of the place."""
         parts = [(share, nodal(*rest)) for share, *rest in self.parts]
         if len(parts) == 1 and parts[0][0] == 1.0:
             return parts[0][1]
         return lambda x: np.asarray(sum(share * one(x) for share, one in parts))
 
     def linear_displacement(self, linear: Linear, x: Array) -> Array:
-        """Return u_x and u_z of linear theory at some places, (2, n)."""
+        """Return u_x and u_z of linear theory at the places ``x`` (n,), (2, n) [mm]."""
         return np.asarray(sum(share * np.stack(linear(x, *rest)) for share, *rest in self.parts))

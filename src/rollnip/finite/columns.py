@@ -1,9 +1,9 @@
-"""Where the columns of a mesh lie: dense where tractions change, and as far as a covering is moved.
+"""Column positions of a mesh: dense where tractions change, and as far as the covering moves.
 
-A stiff skin brings two lengths of its own. Beside an edge the pressure changes within its
-thickness. And it carries forces along the surface over sqrt(E h / k), E h the stiffness of the
-skin, E = E / (1 - nu^2), and k = G/t the shear stiffness of what lies between it and the core: a
-mesh that ends sooner lets it slide.
+A stiff skin of thickness h adds two lengths. Beside an edge of the contact the pressure changes
+within about h. Along the surface the skin carries forces over the shear lag sqrt(E' h / k), with
+E' = E/(1 - nu^2) of the skin and the shear stiffness k = G/t of the layers between it and the core:
+on a shorter mesh it would slide.
 """
 
 from __future__ import annotations
@@ -17,41 +17,43 @@ import numpy as np
 from rollnip.finite.strip import Array
 from rollnip.rollers import Layer, Roller
 
-_COLUMNS = 32  # elements under the tractions
-_BESIDE_EDGE = 0.15  # longest element at an edge, over the length within which pressures change
-_SLOPE = 0.25  # of the longest element by the distance from the edge
-_FROM_EDGE = np.geomspace(0.1, 32.0, 18)  # distances from an edge at which this is looked up
-_SLOPE_BESIDE = 0.4  # the same beside the tractions, where the skin bends, too
-# Longest element under the tractions, over the thickness of what is squeezed between stiff sides.
-# With 0.4 approach, width and peak are within 2e-4 of those with 0.1, with 1 a few per cent off.
+_COLUMNS = 32  # elements under the tractions, where no length below asks for more
+_BESIDE_EDGE = 0.15  # longest element at an edge, over `Columns.skin`
+_SLOPE = 0.25  # by which it grows per distance from the edge, under the tractions
+_FROM_EDGE = np.geomspace(0.1, 32.0, 18)  # distances, over `skin`, at which this is evaluated
+_SLOPE_BESIDE = 0.4  # as _SLOPE, beside the tractions, where the skin bends, too
+# Longest element under the tractions, over `Columns.squeezed`. With 0.4 approach, width and peak
+# are within 2e-4 of those with 0.1; with 1 they are a few per cent off.
 _OVER_SQUEEZED = 0.4
-# Elements under the tractions, at most. Incompressible coverings that would need more have more
-# than 200 times their thickness within half the nip width; the contact is not verified there.
+# Elements under the tractions, at most. Incompressible coverings that would need more have a
+# half-width of more than 200 times their thickness; their contact is not verified.
 _MOST_COLUMNS = 1024
-_INSIDE = 4.0  # longest element anywhere under the tractions, over the same
-_GROWTH = 2.0  # of elements beside the tractions
-_LONGEST = 0.8  # element, over the thickness that counts
-_LAG = 0.125  # the same, over the length along which a skin carries forces, if that is more
-_REACH = 4.75  # of the mesh beyond the tractions, over the thickness that counts
+_INSIDE = 4.0  # longest element anywhere under the tractions, over `skin`
+_GROWTH = 2.0  # ratio of the lengths of neighbouring elements beside the tractions, at most
+# Beside the tractions; "thickness" is that of the covering, at least _LEAST_THICKNESS half-widths.
+_LONGEST = 0.8  # longest element, over the thickness
+_LAG = 0.125  # the same over the shear lag of a skin; the larger of the two counts
+_REACH = 4.75  # of the mesh beyond the tractions, over the thickness
 _REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
-_LAGS = 5.0  # the same, over the length along which a skin carries forces
-_TURN = 2.5  # of the radius: how far arcs reach at most
-_TURNS = 2.0 * pi  # the same under a skin
-_WAVES = 8.0  # wave number that counts under a stiff skin, times its thickness
-_STIFF = 10.0  # times as stiff as what it covers: half of these waves count
-_LEAST_THICKNESS = 0.5  # that counts, over the half-width
-
+_LAGS = 5.0  # the same over the shear lag of a skin; the larger of the two counts
+_TURN = 2.5  # largest arc of the mesh, over the radius
+_TURNS = 2.0 * pi  # largest reach on account of the shear lag, over the radius
+_WAVES = 8.0  # largest wave number of the correction under a very stiff skin, times `skin`
+_STIFF = 10.0  # modulus of a layer over that of the one below at which half of it is left
+_LEAST_THICKNESS = 0.5  # see above
 
 @dataclass(frozen=True)
 class Columns:
-    """Lengths that set the columns of a covering.
+    """Lengths from which the columns of a mesh are laid out.
 
     Attributes
     ----------
-    longest : element beside the tractions [mm].
-    reach : how far the mesh goes on beyond the tractions [mm].
-    skin : length within which pressures change beside an edge [mm]; inf without a stiff skin.
-    cut : wave number up to which the displacement of a stiff skin counts [1/mm]; 0 without one.
+    longest : longest element beside the tractions [mm].
+    reach : length of the mesh beyond the tractions, on either side [mm].
+    skin : length within which pressures change beside an edge under a stiff skin [mm]; inf without
+        one.
+    cut : wave number up to which the correction keeps waves because of the skin [1/mm]; 0 without
+        one.
     squeezed : thickness of what is squeezed between the tractions and a stiff layer or core [mm].
     """
 
@@ -63,7 +65,7 @@ class Columns:
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Columns:
-        """Return the lengths for a contact of about that half-width [mm]."""
+        """Return the lengths for a contact of about this half-width [mm]."""
         thick, lag = max(roller.coating_thickness, _LEAST_THICKNESS * half_width), _lag(roller)
         reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * thick
         far = _LAGS * lag
@@ -76,12 +78,15 @@ class Columns:
     def places(
         self, nodes: Array, pressure: Array, *, is_parted: bool = False
     ) -> tuple[Array, slice]:
-        """Return where the columns are to be when deformed, and which of them are loaded.
+        """Return the present places of the ends of columns, and which of them bound loaded columns.
 
-        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact. Where it
-        ``is_parted`` into zones of stick and slip, columns of a stiff skin depend on its edges
-        only: zones move while the correction is sought, and the errors of other columns would move
-        them on.
+        Parameters
+        ----------
+        nodes : (N+1,) of the contact [mm].
+        pressure : (N-1,) at nodes[1:-1].
+        is_parted : whether the contact has zones of stick and of slip. The columns of a stiff skin
+            then follow its edges, not its nodes: zones move from iteration to iteration, and the
+            errors of columns that follow them would move them again.
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
@@ -94,7 +99,7 @@ class Columns:
         return places, slice(before.size, before.size + under.size)
 
     def under(self, nodes: Array) -> Array:
-        """Return columns as dense as nodes, and denser where the skin asks for it."""
+        """Return the ends of loaded columns: as dense as the nodes, or as the lengths ask for."""
         places = nodes
         if self.skin < inf:
             near = self.skin * _FROM_EDGE
@@ -111,7 +116,10 @@ class Columns:
         return np.interp(np.linspace(0.0, number[-1], count + 1), number, places)
 
     def _beside(self, first: float) -> Array:
-        """Return distances from an edge: growing from the first element, then even."""
+        """Return distances of column ends from an edge, up to ``reach``.
+
+        Elements grow from the length ``first`` on, until they are as long as they may be.
+        """
         step, ends = min(first, self.longest), [0.0]
         while ends[-1] < self.reach:
             ends.append(ends[-1] + step)
@@ -121,9 +129,10 @@ class Columns:
 
 
 def _crowded(start: float, stop: float, length: float) -> Array:
-    """Return nodes at places that go as squares over some length from either edge, as cosines do.
+    """Return places whose distance from either edge grows as a square within some length.
 
-    From there to the middle their logarithm goes evenly, see `contact.cosine_nodes`.
+    So do the cosine nodes of a contact; from there to the middle the distance grows as an
+    exponential, see `contact.cosine_nodes`.
     """
     half = 0.5 * (stop - start)
     even = np.linspace(-1.0, 1.0, _COLUMNS + 1)
@@ -132,9 +141,10 @@ def _crowded(start: float, stop: float, length: float) -> Array:
 
 
 def _skin(roller: Roller) -> float:
-    """Return the length within which pressures change beside an edge under a stiff top layer.
+    """Return the length within which pressures change beside an edge under a stiff top layer [mm].
 
-    Its thickness where it is much stiffer than what it covers; inf where it is not stiffer.
+    It is the thickness of that layer where it is much stiffer than the next one; inf where it is
+    not stiffer.
     """
     for top, below in pairwise(roller.layers[:2]):
         softer = below.material.relaxed_modulus / top.material.glassy_modulus
@@ -144,11 +154,11 @@ def _skin(roller: Roller) -> float:
 
 
 def _squeezed(roller: Roller) -> float:
-    """Return the thickness of what is squeezed between the tractions and a stiff layer or core.
+    """Return the thickness squeezed between the tractions and a stiff layer or core [mm].
 
-    What cannot change its volume flows sideways there, in a parabola over this thickness that
-    follows the slope of the pressure: elements that are longer do not have it. A layer less than
-    ten times as stiff below yields itself.
+    Incompressible rubber flows sideways there, with a parabolic profile over this thickness driven
+    by the gradient of the pressure; longer elements do not resolve it. A layer below that is less
+    than ten times as stiff yields itself, so that the thickness counts as larger.
     """
     depth, least = 0.0, inf
     for layer, below in zip(roller.layers, [*roller.layers[1:], None], strict=True):
@@ -161,11 +171,11 @@ def _squeezed(roller: Roller) -> float:
 
 
 def _cut(roller: Roller) -> float:
-    """Return the wave number up to which the displacement of a stiff top layer counts.
+    """Return the wave number up to which a stiff top layer needs waves of the correction [1/mm].
 
-    Waves shorter than its thickness carry the peak of pressure beside an edge, which only a layer
-    many times stiffer than what it covers has. Beside a slipping edge iterations do not settle
-    with such waves.
+    Waves shorter than its thickness carry the pressure peak beside an edge, which only a layer many
+    times stiffer than the next one has. Without such a peak they are left out, because beside a
+    slipping edge the iterations do not settle with them.
     """
     if len(roller.layers) < 2:
         return 0.0
@@ -175,7 +185,7 @@ def _cut(roller: Roller) -> float:
 
 
 def _lag(roller: Roller) -> float:
-    """Return the length along which a layer carries forces before the core has taken them."""
+    """Return the largest shear lag: the length over which a layer passes its force to the core."""
     lag, below = 0.0, 0.0
     for layer in reversed(roller.layers):
         poisson, glassy = layer.material.poisson, layer.material.glassy_modulus

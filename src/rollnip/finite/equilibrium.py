@@ -1,17 +1,18 @@
-"""Equilibrium of a covering under tractions that follow its surface, at any strain.
+"""Equilibrium of a covering at finite strain under follower loads, by Newton's method.
 
-The energy of a layer is  psi = G [w(I, J) - r ln J] + U(J),  I = F : F  (`rollnip.materials`), with
-nominal stress
+The strain energy of a layer is  psi = G [w(I, J) - r ln J] + U(J),  I = F : F
+(`rollnip.materials`), its nominal stress
 
     P = 2 G w_I F + (G w_J + c) cof F,     c = U'(J) - r G/J;
 
 w = I/2 and r = 1 is neo-Hookean. An incompressible layer has J = 1 and c = pi - r G with an unknown
-pi. Volume and pressure are linear in each element and not continuous: J is replaced by its
-projection in c, c by its own (Simo, Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51,
-177-208), so that nothing locks as nu approaches 0.5.
+pi. The elements are mixed ones: volume and pressure are linear in each element and discontinuous
+between elements. In c, J is replaced by its projection on such functions, and c by its own (Simo,
+Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51, 177-208); so nothing locks as nu
+approaches 0.5. Pressures are eliminated element by element.
 
-The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y') , p and q the pressure
-and shear at the *present* place x(s); its derivative by the displacements is kept whole.
+The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y'), with the pressure p
+and the shear q at the *present* place x(s). The tangent stiffness includes its full derivative.
 """
 
 from __future__ import annotations
@@ -30,29 +31,39 @@ from rollnip.finite.strip import LINEAR, Array, Indices, Strip
 from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
 
-# An incompressible layer yields to its pressure by this over G while a step is computed, not in
-# the result: every step reduces what is left of J - 1 by about this factor.
+# Compliance of the volume to the pressure, over 1/G, with which an incompressible layer is regular
+# within a step. The result does not depend on it: every step updates the pressures, as an augmented
+# Lagrangian does, and reduces J - 1 by about this factor.
 _YIELD = 1e-6
 _SOFT = NeoHookean()
-# Allowed error of a result, over the displacement, in energy: a skin answers short waves that
-# are a millionth of the displacement with pressures like those of the contact.
+# Tolerance: root of the energy of the error over that of the work of the tractions. Displacements
+# alone would not do: a skin answers short waves, a millionth of the displacement, with pressures
+# like those of the contact.
 STILL = 1e-5
-# What settles takes five steps at most (485 equilibria of the examples and 100 random nips).
+# Equilibria that converge take five steps at most (485 of the examples and 100 random nips).
 _MOST_STEPS = 15
-_LEAST_VOLUME = 0.1  # J that a step may reach
-_LEFT_BY_A_STEP = 1e-3  # of the loads of a step, by an iterative solution
-_SHORTEST = 1e-2  # part of a step that is worth while
-_CONTRACTION = 0.3  # of steps, up to which a derivative is kept
-_CURVED = 3.0  # contraction expected of a derivative that is a step old, over the step
+_LEAST_VOLUME = 0.1  # smallest J that a step may lead to
+_LEFT_BY_A_STEP = 1e-3  # relative residual of an iterative linear solution within a step
+_SHORTEST = 1e-2  # smallest part of a Newton step that is tried
+_CONTRACTION = 0.3  # ratio of successive steps up to which a tangent is used again
+# Ratio expected of the step after the first one, if both use the tangent at the start, over the
+# first step relative to the displacement.
+_CURVED = 3.0
 
 
 @dataclass(frozen=True)
 class _Fields:
-    """Deformation and stress at the points of Gauss, for the forces and their derivative.
+    """Deformation and stresses of a state, from which forces and tangent are assembled.
 
-    F (4, elements, 9), see `Strip.deformation`; c with G w_J, and 2 G w_I, (elements, 9); step and
-    rate of the pressures; G times the derivatives of w, None where those of second order are zero;
-    stresses that relax, None where there are none.
+    Attributes
+    ----------
+    deformation : (4, elements, 9) F at the Gauss points, see `Strip.deformation`.
+    c : (elements, 9) G w_J + c, the factor of cof F.
+    straight : (elements, 9) 2 G w_I, the factor of F.
+    step : (elements, 3) change of the pressures by a Newton step without displacements.
+    rate : (elements, 3, 3) derivatives of the pressures by the volumes.
+    second : G times the derivatives of w; None where those of second order are zero.
+    viscous : stresses that relax; None where all layers are elastic.
     """
 
     deformation: Array
@@ -66,12 +77,13 @@ class _Fields:
 
 @dataclass(frozen=True)
 class Body:
-    """A mesh with the strain energies of its elements.
+    """A mesh of a covering with the strain energies of its elements.
 
     Attributes
     ----------
     strip : the mesh.
-    speed : V at which viscoelastic layers pass it [mm/s]; needed for these alone.
+    speed : V at which the covering passes it [mm/s]; None: all layers act as elastic ones with the
+        relaxed modulus.
     """
 
     strip: Strip
@@ -86,7 +98,7 @@ class Body:
 
     @cached_property
     def _constants(self) -> tuple[Array, Array, Array]:
-        """G, lambda (0 where incompressible) and 1 where incompressible, (elements, 1)."""
+        """G, lambda (0 if incompressible), and 1 if incompressible or else 0; (elements, 1)."""
         shear, lame, rigid = [], [], []
         for layer in self.strip.depths.roller.layers:
             young, nu = layer.material.relaxed_modulus, layer.material.poisson
@@ -99,7 +111,7 @@ class Body:
 
     @cached_property
     def _energies(self) -> list[tuple[Energy, Array | slice]]:
-        """The different strain energies, each with a mask of its elements."""
+        """The different strain energies, each with the mask of the elements that have it."""
         given = [layer.material.energy or _SOFT for layer in self.strip.depths.roller.layers]
         different = list(dict.fromkeys(given))
         if len(different) == 1:
@@ -109,14 +121,18 @@ class Body:
 
     @cached_property
     def _rest(self) -> Array:
-        """Slope of the energies at rest over G, (elements, 1)."""
+        """r of every element, the slope of w at rest, (elements, 1)."""
         out = np.empty((self.strip.layer.size, 1))
         for energy, where in self._energies:
             out[where] = energy.rest
         return out
 
     def _slopes(self, volume: Array, spread: Array) -> Slopes:
-        """Return the derivatives of the energies by I and J over G, each (elements, 9)."""
+        """Return the derivatives of w by I and J, each (elements, 9).
+
+        ``volume`` is J and ``spread`` I - 2 J, see `Energy.slopes`. Raises `NoEquilibriumError`
+        where an energy has no such stretch.
+        """
         out = np.empty((len(Slopes._fields), *volume.shape))
         with np.errstate(all="ignore"):
             for energy, where in self._energies:
@@ -130,7 +146,7 @@ class Body:
         return MeshState(np.zeros(self.strip.size), np.zeros((self.strip.layer.size, 3)))
 
     def _law(self, volume: Array) -> tuple[Array, Array]:
-        """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
+        """Return c and dc/dJ at J, for compressible elements (values of the others are unused)."""
         shear, lame, _ = self._constants
         law = np.empty((2, *volume.shape))
         for energy, where in self._energies:
@@ -141,10 +157,11 @@ class Body:
     def _volume_terms(
         self, ratio: Array, pressure: Array, viscous: Viscous | None
     ) -> tuple[Array, ...]:
-        """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points.
+        """Return `_Fields.c` without G w_J, `_Fields.step` and `_Fields.rate`.
 
-        Compressible elements have a pressure of their own, too, which steps to that of their
-        volume: so that steps go as far where nu is nearly 0.5.
+        ``ratio``, (elements, 9), is J at the Gauss points. Compressible elements have independent
+        pressures, too, which a step sets to what their law says of the projected volume: with
+        these, Newton's method converges as well where nu is nearly 0.5.
         """
         shear, _, rigid = self._constants
         weighted, inverse = self.strip.products
@@ -172,7 +189,7 @@ class Body:
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
     def _fields(self, state: MeshState, deformation: Array | None = None) -> _Fields:
-        """Return the fields of a state; ``deformation`` is F of it."""
+        """Return the fields of a state; ``deformation`` is its F, if known."""
         if deformation is None:
             deformation = self.strip.deformation(state.displacement)
         x_s, x_z, y_s, y_z = deformation
@@ -193,16 +210,19 @@ class Body:
         return _Fields(deformation, c, straight, step, rate, second, viscous)
 
     def relaxing(self, state: MeshState) -> Viscous | None:
-        """Return the stresses of a state that relax; None where all layers are elastic."""
+        """Return the relaxing stresses of a state; None where all layers are elastic."""
         return None if self.memory is None else self._fields(state).viscous
 
     def _means(self, fields: _Fields) -> Array:
-        """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
+        """Return the derivatives of int J N dV by the displacements, (elements, 3, 18).
+
+        N are the functions of the basis `LINEAR`.
+        """
         x_s, x_z, y_s, y_z = fields.deformation
         return self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
 
     def _force(self, fields: _Fields, means: Array) -> Array:
-        """Return the forces of the elements on the nodes, (unknowns,)."""
+        """Return the internal forces at the nodes, the step of the pressures included."""
         (x_s, x_z, y_s, y_z), c = fields.deformation, fields.c
         stress = fields.straight * fields.deformation
         stress[0] += c * y_z
@@ -213,20 +233,20 @@ class Body:
         force += (fields.step[:, None] @ means)[:, 0]
         if fields.viscous is not None:
             force += fields.viscous.force
-        # The core, at unknown -1, takes what is left over.
+        # Forces on the core, numbered -1, are added up at place 0 and left out.
         return summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
     @cached_property
     def _soft(self) -> Array:
-        """Stiffness G grad.grad of neo-Hookean elements, the same at any strain."""
+        """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
         return self.strip.isotropic(self._constants[0])
 
     def _stiffness(
         self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
     ) -> Array:
-        """Return the derivative of the forces by the displacements, in banded storage, flat.
+        """Return the derivative of the internal forces by the displacements, in banded storage.
 
-        Without the memory of other columns.
+        Flat, (stored,). What relaxing stresses owe to other Gauss points is left out.
         """
         stiff = self._element_stiffness(fields, means, rate, relaxing)
         stored = self.strip.stored
@@ -235,7 +255,7 @@ class Body:
     def _element_stiffness(
         self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
     ) -> Array:
-        """Return the same of every element by itself, (elements, 2, 9, 2, 9)."""
+        """Return the same of every element, before assembly, (elements, 2, 9, 2, 9)."""
         straight = self._soft if self._is_soft else self.strip.isotropic(fields.straight)
         turn = self.strip.turning(fields.c)
         stiff = means.transpose(0, 2, 1) @ rate
@@ -252,7 +272,7 @@ class Body:
         return np.asarray(stiff)
 
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
-        """Return what second derivatives of w add: dI = 2 F : dF, dJ = cof F : dF."""
+        """Return what the second derivatives of w add, with dI = 2 F : dF and dJ = cof F : dF."""
         x_s, x_z, y_s, y_z = deformation[..., None]
         by_s, by_z = self.strip.shapes
         along = 2.0 * np.concatenate([x_s * by_s + x_z * by_z, y_s * by_s + y_z * by_z], axis=-1)
@@ -263,7 +283,7 @@ class Body:
         return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
 
     def _tangent(self, fields: _Fields, loads: tuple[Indices, Array] | None) -> Tangent:
-        """Factorise the derivative at some fields; ``loads`` are the entries of the tractions."""
+        """Factorise the tangent stiffness; ``loads`` are its entries from the follower loads."""
         means = self._means(fields)
         rate = fields.rate @ means
         relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
@@ -282,7 +302,7 @@ class Body:
 
     @cached_property
     def at_first(self) -> Tangent:
-        """The derivative of the undeformed state, symmetric where all layers are elastic."""
+        """Tangent of the undeformed state without loads, symmetric where all layers are elastic."""
         fields = self._fields(self.at_rest())
         if self.memory is not None:
             return self._tangent(fields, None)
@@ -298,27 +318,32 @@ class Body:
         return Tangent((band, 0), factors, None, means, rate, order=self.strip.order)
 
     def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
-        """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.
+        """Return the displacements of linear theory, (unknowns,) [mm].
 
-        They act along the tangent and the normal of the undeformed surface. ``left``: the share of
-        the loads that an iterative solution may leave over.
+        The tractions are given at undeformed arcs, per undeformed arc, along the tangent and the
+        normal of the undeformed surface. ``left``: relative residual of an iterative solution.
         """
         return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
 
     def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
-        """Return the displacements of linear theory with their pressures, in the same form."""
+        """Return the displacements of linear theory, as above, with their pressures."""
         displacement = self.linear_displacements(tractions, left)
         return MeshState(displacement, self.at_first.pressures(self.strip.local(displacement)))
 
     def equilibrium(
         self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
     ) -> MeshState:
-        """Solve by Newton's method, until ``still`` times the displacement or less is left.
+        """Return the equilibrium under some tractions, by Newton's method.
 
-        Or until no more is left than a ``share`` of the first step. All are measured by the root of
-        a work: that of a step against what is out of balance, and that of the tractions. A
-        derivative is kept as long as steps shrink to 0.3 with it. Raises `NoEquilibriumError` where
-        steps do not settle from ``start``, not even with the derivative there.
+        A step du against the residual force r is measured by sqrt(|du . r|) over the root of the
+        work of the tractions. Steps end when the estimated error is at most ``still``, or at most
+        ``share`` times the first step. A tangent is used again as long as each step is at most 0.3
+        of the one before; the first one is that of ``start``, if it has one.
+
+        Raises
+        ------
+        NoEquilibriumError
+            where steps do not converge from ``start``, not even with a new tangent there.
         """
         if start.tangent is None:
             return self._by_steps(tractions, start, still, share)
@@ -331,7 +356,7 @@ class Body:
     def _by_steps(
         self, tractions: Tractions, start: MeshState, still: float, share: float
     ) -> MeshState:
-        """Solve from a state, the first steps with its derivative if that is known."""
+        """Take Newton steps from a state, the first ones with its tangent if it has one."""
         state, tangent, before, first = start, start.tangent, inf, 0.0
         deformation = self.strip.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
@@ -361,7 +386,10 @@ class Body:
         raise NoEquilibriumError
 
     def _part(self, deformation: Array, step: Array) -> tuple[float, Array]:
-        """Return how much of a step leaves every element the right side out, and F after it."""
+        """Return the part of a step that may be taken, and F after it.
+
+        The step is halved until J > 0.1 at all Gauss points, so that no element is inverted.
+        """
         change, part = self.strip.gradient(step), 1.0
         while part >= _SHORTEST:
             moved = deformation + part * change

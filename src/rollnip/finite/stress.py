@@ -1,11 +1,11 @@
-"""Stresses and stretches inside a covering at finite strain, from a state of its elements.
+"""Stresses and strains inside a covering at finite strain, from a state of its mesh.
 
-Cauchy stress  J s = P F^T,  with the nominal stress P of `rollnip.finite.equilibrium`. Along the
-axle, where nothing is stretched,  s_yy = G w_3/J + c,  w_3 = dw/dl3 at l3 = 1.
+The Cauchy stress s is  J s = P F^T,  with the nominal stress P of `rollnip.finite.equilibrium`.
+Along the axis, where nothing is stretched,  s_yy = G w_3/J + c,  w_3 = dw/dl3 at l3 = 1.
 
-Components belong to the present lines of constant undeformed depth: x along such a line, z across
-it into the roller. At the surface s_zz = -p and s_xz = -q then hold at any strain, at a bond they
-are what it carries, and at small strains they are the polar components of linear theory.
+Components refer to the deformed lines of constant depth: x along such a line, z normal to it, into
+the roller. So s_zz = -p and s_xz = -q at the surface at any strain, at a bond s_zz and s_xz are the
+tractions that it carries, and at small strains all are the polar components of linear theory.
 """
 
 from __future__ import annotations
@@ -22,13 +22,20 @@ from rollnip.finite.viscous import Viscous
 from rollnip.materials import Energy, NeoHookean
 
 PARTS = ("u_x", "u_z", "s_xx", "s_zz", "s_xz", "s_yy", "e_xx", "e_zz", "e_xz", "energy")
-"""What `element_fields` returns, in this order."""
+"""The fields that `element_fields` returns, in this order."""
 Masked = tuple[Energy, NDArray[np.bool_]]
 
 
 @dataclass(frozen=True)
 class _Law:
-    """Constants of every element: G and lambda (elements, 1), the energies with their elements."""
+    """Material of every element.
+
+    Attributes
+    ----------
+    shear, lame, rest : (elements, 1) G, lambda and r.
+    rigid : (elements, 1) whether incompressible.
+    energies : the different strain energies, each with the mask of the elements that have it.
+    """
 
     shear: Array
     lame: Array
@@ -58,28 +65,27 @@ class _Law:
 def element_fields(
     body: Body, state: MeshState, along: Array, down: Array, near: float | None = None
 ) -> tuple[Array, Array]:
-    """Return the fields of a state at the same places of every element.
+    """Return the fields of a state at the same points of every element.
 
     Parameters
     ----------
     body, state :
         a mesh and its equilibrium.
     along, down :
-        (points,) places in each element, from -1 to 1.
+        (points,) coordinates in each element along the arc and over the depth, from -1 to 1.
     near :
-        abscissa beyond which places follow the arc [mm]; None: the state is so small that linear
-        theory holds. Places are then undeformed arcs, and displacements those along and into the
-        undeformed roller.
+        abscissa beyond which places grow with the angle [mm]. None: the state is that of linear
+        theory; places are then undeformed arcs, and displacements the polar ones.
 
     Returns
     -------
     Present places (columns, rows, points) [mm]: x/(1 - z/R) with the undeformed depth z, at the
-    surface x itself; beyond ``near`` they grow with the angle.
+    surface x itself; beyond ``near`` they grow with the angle. ``rows`` are those of elements.
 
     Fields (parts, columns, rows, points), the parts named by `PARTS`: displacements along and into
-    the roller, defined as at its surface [mm]; stresses [MPa]; stretches less 1 along and across
-    the present line of constant depth, and half the shear angle; strain energy per undeformed
-    volume [MPa], with half the product of relaxing stress and strain.
+    the roller, defined as at its surface [mm]; stresses [MPa]; stretches along and across the
+    deformed line of constant depth, less 1, and half the shear angle; strain energy per undeformed
+    volume, with half the product of relaxing stress and strain [MPa].
     """
     strip, viscous = body.strip, body.relaxing(state)
     law = _Law.of(strip)
@@ -122,7 +128,10 @@ def element_fields(
 
 
 def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Array, ...]:
-    """Return arc, depth, displacement, and F on the unit vectors along and into the roller."""
+    """Return arcs, depths, displacements, and F on the unit vectors along and into the roller.
+
+    The former two (elements, points) [mm], the others (elements, points, 2) with x and y.
+    """
     (n_s, d_s), (n_z, d_z) = quadratics(along), quadratics(down)
     z, rows = strip.depths.ends, strip.depths.owner.size
     half_s = np.repeat(0.5 * np.diff(strip.ends), rows)[:, None]
@@ -144,7 +153,7 @@ def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Ar
 def _places(
     curvature: float, arc: Array, depth: Array, moved: Array, near: float
 ) -> tuple[Array, ...]:
-    """Return places, and u_x and u_z: at the depth as they are defined at the surface."""
+    """Return present places, u_x and u_z at depth, defined as at the surface of the roller."""
     shrink = 1.0 - curvature * depth
     x, y = on_circle(arc, curvature)
     x, y = x * shrink + moved[..., 0], depth + y * shrink + moved[..., 1]
@@ -153,9 +162,9 @@ def _places(
 
 
 def present_place(x: Array, y: Array, depth: Array, circle: tuple[float, float]) -> Array:
-    """Return x/(1 - z/R) of points (x, y) of undeformed depth z; far off it grows with the angle.
+    """Return the place x/(1 - z/R) of points (x, y) of undeformed depth z [mm].
 
-    ``circle``: 1/R, and the abscissa up to which it is that.
+    ``circle``: 1/R, and the abscissa beyond which the place grows with the angle instead.
     """
     curvature, near = circle
     if curvature == 0.0:
@@ -174,7 +183,7 @@ def _polar(angle: Array, moved: Array) -> tuple[Array, Array]:
 
 
 def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[Array, Array]:
-    """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at places ``at`` (points, 2)."""
+    """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at points ``at`` (points, 2)."""
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     c = state.pressure @ basis - law.rest * law.shear
     if law.rigid.all():
@@ -196,7 +205,7 @@ def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[A
 
 
 def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, Array, Array]:
-    """Return the Cauchy stress in space as xx, yy, xy, the axial one, and psi less U."""
+    """Return the Cauchy stress as xx, yy, xy, that along the axis, and psi less U."""
     hoop, inward, ratio = deformed
     left = np.stack(
         [
@@ -222,7 +231,11 @@ def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, 
 
 
 def _relaxed(law: _Law, viscous: Viscous) -> Array:
-    """Return T_ss, T_zz, T_sz, what c gets, T_yy and the energy that relax, (elements, 9, 6)."""
+    """Return what relaxing stresses amount to at the Gauss points, (elements, 9, 6).
+
+    The relaxing parts of T_ss, T_zz and T_sz, what is added to c, that of T_yy along the axis, and
+    the energy.
+    """
     x_s, x_z, y_s, y_z = viscous.deformation
     volume, spread = x_s * y_z - x_z * y_s, (x_s - y_z) ** 2 + (x_z + y_s) ** 2
     total, apart = np.sqrt(spread + 4.0 * volume), np.sqrt(spread)
@@ -242,14 +255,14 @@ def _relaxed(law: _Law, viscous: Viscous) -> Array:
 
 
 def _projected(strip: Strip, values: Array, at: Array) -> Array:
-    """Return values at points of Gauss, made linear in each element, at places (points, 2)."""
+    """Return values at Gauss points, projected on linear functions, at points (points, 2)."""
     weighted, inverse = strip.products
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     return np.asarray(basis.T @ (inverse @ (weighted @ values)))
 
 
 def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
-    """Return F T F^T as xx, yy, xy."""
+    """Return F T F^T as xx, yy, xy, of the relaxing parts of T."""
     ss, zz, sz = (held[..., part] for part in range(3))
     out = np.empty((*ss.shape, 3))
     for place, (i, j) in enumerate(((0, 0), (1, 1), (0, 1))):
@@ -259,7 +272,7 @@ def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
 
 
 def _component(stress: Array, one: Array, other: Array) -> Array:
-    """Return one . s . other, s as xx, yy, xy."""
+    """Return one . s . other, with s given as xx, yy, xy."""
     mixed = one[..., 0] * other[..., 1] + one[..., 1] * other[..., 0]
     return np.asarray(
         stress[..., 0] * one[..., 0] * other[..., 0]

@@ -1,6 +1,6 @@
-"""Stresses of viscoelastic layers that relax, at some state of a mesh, and their derivative.
+"""Relaxing stresses of viscoelastic layers in a state of a mesh, and their derivative.
 
-The law is that of `rollnip.finite.memory`.
+The law is that of `rollnip.finite.memory`. "The relaxing part" of a stress f is g * df/dt.
 """
 
 from __future__ import annotations
@@ -19,18 +19,17 @@ from rollnip.materials import Energy
 
 @dataclass(frozen=True)
 class Viscous:
-    """Relaxing stresses of a state of a mesh.
+    """Relaxing stresses in a state of a mesh.
 
     Attributes
     ----------
-    memory : of the mesh.
-    deformation : F on the unit vectors along the arc and into the roller, (4, elements, 9): x by
-        arc, x by depth, y by arc, y by depth.
-    scale : G of every element, (elements, 1).
-    rest : slope of the energies at rest.
-    slopes : derivatives of w by I, J, twice I, I and J, twice J; each (elements, 9) or a number.
-    volume : lambda, and m, m' and m'' of the projected J, (4, elements, 9); None: no viscoelastic
-        layer is compressible.
+    memory : the history integrals of the mesh.
+    deformation : (4, elements, 9) F, see `Strip.deformation`.
+    scale : (elements, 1) G.
+    rest : (elements, 1) r.
+    slopes : w_I, w_J, w_II, w_IJ and w_JJ; each (elements, 9) or a number.
+    volume : (4, elements, 9) lambda, and m, m' and m'' at the projected J; None where no
+        viscoelastic layer is compressible.
     """
 
     memory: Memory
@@ -49,10 +48,10 @@ class Viscous:
         energies: Sequence[tuple[Energy, Array | slice]],
         slopes: tuple[Array | float, ...],
     ) -> Viscous:
-        """Return the stresses at some deformation, (4, elements, 9).
+        """Return the relaxing stresses at some deformation, (4, elements, 9).
 
-        ``constants`` are G, lambda and the slope of the energy at rest of every element;
-        ``energies`` come with masks of their elements.
+        ``constants`` are G, lambda and r of every element, each (elements, 1); ``energies`` come
+        with the masks of their elements.
         """
         scale, lame, rest = constants
         volume = None
@@ -74,18 +73,18 @@ class Viscous:
 
     @cached_property
     def _stretch(self) -> tuple[Array, Array, Array]:
-        """C along the arc, into the roller, and mixed."""
+        """C_ss, C_zz and C_sz; s along the arc, z into the roller."""
         x_s, x_z, y_s, y_z = self.deformation
         return x_s**2 + y_s**2, x_z**2 + y_z**2, x_s * x_z + y_s * y_z
 
     @property
     def _turned(self) -> Array:
-        """Factor of the adjugate of C in T."""
+        """Factor of the adjugate of C in T, G (w_J - r/J)/J."""
         return np.asarray(self.scale * (self.slopes[1] - self.rest / self._ratio) / self._ratio)
 
     @cached_property
     def stress(self) -> Array:
-        """Relaxing part of T_ss, T_zz, T_sz and lambda m, (elements, 9, parts)."""
+        """Relaxing parts of T_ss, T_zz, T_sz; of lambda m with ``volume``; (elements, 9, parts)."""
         along, across, mixed = self._stretch
         straight, turned = 2.0 * self.scale * self.slopes[0], self._turned
         parts = [straight + turned * across, straight + turned * along, -turned * mixed]
@@ -108,7 +107,10 @@ class Viscous:
 
     @cached_property
     def by(self) -> Array:
-        """Derivatives of the strains by the displacements, (elements, 9, parts, 18)."""
+        """Derivatives of the conjugate strains by the displacements, (elements, 9, parts, 18).
+
+        Those of Green's strains E_ss and E_zz, of 2 E_sz and, with ``volume``, of m.
+        """
         x_s, x_z, y_s, y_z = self.deformation[..., None]
         by_s, by_z = self.memory.strip.shapes
         parts = 3 if self.volume is None else 4
@@ -123,7 +125,7 @@ class Viscous:
 
     @property
     def rate(self) -> Array:
-        """Derivatives of T and lambda m by the displacements, (elements, 9, parts, 18)."""
+        """Derivatives of T_ss, T_zz, T_sz and lambda m likewise, (elements, 9, parts, 18)."""
         by, ratio = self.by, self._ratio[..., None]
         swell = self._swell.reshape(*self._ratio.shape, 18)
         grown = 2.0 * (by[:, :, 0] + by[:, :, 1])
@@ -143,7 +145,7 @@ class Viscous:
 
     @cached_property
     def volume_law(self) -> tuple[Array | float, Array | float]:
-        """Addition of the change of volume to U' at the points, and to its slope by J there."""
+        """What the relaxing part of lambda m adds to U' and to U'' at the Gauss points."""
         if self.volume is None:
             return 0.0, 0.0
         lame, _, slope, bend = self.volume
@@ -152,7 +154,7 @@ class Viscous:
 
     @property
     def force(self) -> Array:
-        """Forces of the relaxing part of T on the nodes of every element, (elements, 18)."""
+        """Nodal forces of the relaxing part of T, (elements, 18)."""
         held = self.stress[..., :3] * self.memory.strip.volumes[..., None]
         x_s, x_z, y_s, y_z = self.deformation
         by_s, by_z = self.memory.strip.shapes.transpose(0, 1, 3, 2)
@@ -165,7 +167,7 @@ class Viscous:
 
     @property
     def turning(self) -> Array:
-        """Stiffness of either direction that T adds as it is, (elements, 9, 9)."""
+        """Geometric stiffness of the relaxing part of T, alike for x and y, (elements, 9, 9)."""
         by_s, by_z = self.memory.strip.shapes
         held = (self.stress * self.memory.strip.volumes[..., None])[:, :, None]
         pulled = held[..., 0] * by_s + held[..., 2] * by_z
@@ -179,14 +181,18 @@ def _last(value: Array | float) -> Array | float:
 
 @dataclass(frozen=True)
 class Relaxing:
-    """Derivative of the relaxing forces by the displacements.
+    """Derivative of the nodal forces of relaxing stresses by the displacements.
+
+    A point's relaxing stress depends on the displacements of its whole row. What a Gauss point
+    contributes to its own stress (`at_once`) belongs to the element's stiffness; the rest of the
+    own element and the next one are added to the banded matrix (`with_near`); what comes from
+    farther is applied without being stored (`from_far`).
 
     Attributes
     ----------
-    memory : of the mesh.
-    by, rate : as `Viscous` has them, by the displacements of each element, (elements, 9 parts, 18);
-        ``by`` times the volumes.
-    slope : m' of the projected J, (elements, 9); None: no viscoelastic layer is compressible.
+    memory : the history integrals of the mesh.
+    by, rate : (elements, 9 parts, 18) those of `Viscous`; ``by`` times the volumes of the points.
+    slope : (elements, 9) m' at the projected J; None where no viscoelastic layer is compressible.
     """
 
     memory: Memory
@@ -196,14 +202,14 @@ class Relaxing:
 
     @classmethod
     def of(cls, viscous: Viscous) -> Relaxing:
-        """Return the derivative at some stresses."""
+        """Return the derivative in a state."""
         by = viscous.by * viscous.memory.strip.volumes[..., None, None]
         flat = (by.shape[0], -1, 18)
         slope = None if viscous.volume is None else viscous.volume[2]
         return cls(viscous.memory, by.reshape(flat), viscous.rate.reshape(flat), slope)
 
     def at_once(self) -> Array:
-        """Return what T adds at each point of Gauss by itself, (elements, 18, 18)."""
+        """Return the stiffness by the weight of each Gauss point on itself, (elements, 18, 18)."""
         by, rate = (one.reshape(one.shape[0], 9, -1, 18)[:, :, :3] for one in (self.by, self.rate))
         share = self.memory.at_once[..., None, None]
         count = by.shape[0]
@@ -211,15 +217,15 @@ class Relaxing:
         return np.asarray(by.transpose(0, 2, 1) @ rate)
 
     def _elsewhere(self, local: Array) -> Array:
-        """Return the relaxing stresses that come from other points, (elements, 9, parts)."""
+        """Return the changes of relaxing stresses that come from other Gauss points."""
         change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
         return self.memory.relaxing(change) - self.memory.at_once[..., None] * change
 
     def with_near(self, stored: Array) -> Array:
-        """Add to a stored matrix what T adds from an element and the next of a row.
+        """Return a banded matrix plus what comes from the own element and the next of its row.
 
         ``stored``, (unknowns, 3 band + 1), has ``band`` diagonals on either side of the main one;
-        what is returned, (unknowns, 4 band + 1), twice as many above it.
+        the result, (unknowns, 4 band + 1), has twice as many above it.
         """
         strip = self.memory.strip
         band, count, ahead = strip.band, self.by.shape[0], strip.depths.owner.size
@@ -236,7 +242,7 @@ class Relaxing:
         return out
 
     def from_far(self, displacement: Array) -> Array:
-        """Return the forces (unknowns,) that come from beyond the next element of a row."""
+        """Return the changes of forces (unknowns,) that come from beyond the next element."""
         strip = self.memory.strip
         local = strip.local(displacement)
         change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
@@ -245,7 +251,7 @@ class Relaxing:
         return np.asarray(np.bincount(places, force.ravel(), minlength=strip.size + 1)[1:], float)
 
     def pressures(self, local: Array) -> Array | float:
-        """Return what displacements elsewhere add to the pressures, (elements, 3)."""
+        """Return the changes of pressures (elements, 3) that come from other Gauss points."""
         if self.slope is None:
             return 0.0
         weighted, inverse = self.memory.strip.products

@@ -42,6 +42,7 @@ _WAVES = 8.0  # largest wave number of the correction under a very stiff skin, t
 _STIFF = 10.0  # modulus of a layer over that of the one below at which half of it is left
 _LEAST_THICKNESS = 0.5  # see above
 
+
 @dataclass(frozen=True)
 class Columns:
     """Lengths from which the columns of a mesh are laid out.

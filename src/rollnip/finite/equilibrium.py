@@ -121,7 +121,7 @@ class Body:
 
     @cached_property
     def _rest(self) -> Array:
-        """r of every element, the slope of w at rest, (elements, 1)."""
+        """The slope r of w at rest, of every element, (elements, 1)."""
         out = np.empty((self.strip.layer.size, 1))
         for energy, where in self._energies:
             out[where] = energy.rest

@@ -1,13 +1,13 @@
-"""What finite strain of all orders adds to the linear displacement of a covering.
+"""The correction of the linear displacement of a covering by finite strain of all orders.
 
 Tractions and displacements belong to *present* places: the material now at x was at the arc
-x - u_x and is at the radius R - u_z. Elements give the displacement U at finite strain. What few of
-them are off is taken from the same mesh in linear theory, under the same tractions on the same
-elements: there the exact displacement is known. So
+x - u_x and is at the radius R - u_z. Finite elements give the displacement U at finite strain. The
+discretisation error of so few of them is subtracted: it is that of the same mesh in linear theory,
+where the exact displacement is known, with the same tractions on the same elements. So
 
     c(x) = U(x) - [u_elements(s; t') - u(s; t')] - u(x; t),    t'(s(x)) = t(x),
 
-u the linear displacement, t the tractions, and s the arc of the material that is at x now.
+with the linear displacement u, the tractions t, and the arc s of the material that is now at x.
 """
 
 from __future__ import annotations
@@ -27,33 +27,33 @@ from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
 CUT = 150.0
-"""Wave number over the half-width from which displacements are left out at small strains."""
-_NEAR = 4.0  # half-widths beyond which the surface is of no interest
-_FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
-_SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
-_STAYS = 0.01  # by which places may move and keep their mesh, over the width of the contact
-_SHARE = 0.01  # allowed error of equilibria, over the change since the last one
+"""Cut-off of the low-pass filter at small strains: wave number times the half-width."""
+_NEAR = 4.0  # half-widths beyond which the correction is not needed
+_FRONT = 0.8  # largest arc of the front side, over the radius: x increases with the arc there
+_SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
+_STAYS = 0.01  # largest move of column ends with which it is, over the width of the contact
+_SHARE = 0.01  # tolerance of equilibria, over their first Newton step
 # While tractions are far from their solution:
-_COARSE_WAVE_SHARE = 0.5  # of the wave numbers that are kept
-_COARSE_MOVE_FACTOR = 2.5  # times `_STAYS`
+_COARSE_WAVE_SHARE = 0.5  # factor of the cut-off
+_COARSE_MOVE_FACTOR = 2.5  # factor of `_STAYS`
 _COARSE_MOVE_FACTOR_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
-_COARSE_RESIDUAL = 1e-4  # that an iterative solution leaves, over the loads
+_COARSE_RESIDUAL = 1e-4  # relative residual of iterative linear solutions
 
-_SAME_SIZE = 0.05  # change of a contact, over its half-width, that keeps the points of smoothing
-_LEAST_SHARE = 0.1  # of a step between tractions
-_MOST_MESHES = 6
+_SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
+_LEAST_SHARE = 0.1  # of the tractions, or of their change, down to which load steps are halved
+_MOST_MESHES = 6  # until the columns lie where they should
 
 
 @dataclass(frozen=True)
 class DeformedSurface:
-    """The outer surface of a covering, deformed, at the ends of elements.
+    """The deformed outer surface of a covering, at the ends of columns.
 
     Attributes
     ----------
-    arcs : (n,) where the material was [mm].
-    x, y : (n,) where it is; both 0 at the point of first touch, y into the roller [mm].
+    arcs : (n,) undeformed arcs of the material [mm].
+    x, y : (n,) its present place; both 0 at the point of first touch, y into the roller [mm].
     u_x : (n,) x less the arc [mm].
-    u_z : (n,) radius of the roller less the present distance from its axle [mm].
+    u_z : (n,) radius of the roller less the present distance from its axis [mm].
     """
 
     arcs: Array
@@ -65,16 +65,16 @@ class DeformedSurface:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """An equilibrium of a covering, from which that of one much like it is found.
+    """An equilibrium of a covering, stored as a start for a similar covering.
 
     Attributes
     ----------
-    ends : (columns + 1,) arcs of the ends of elements [mm].
-    loaded : the columns under the tractions.
+    ends : (columns + 1,) arcs of the ends of columns [mm].
+    loaded : the ends under the tractions.
     displacement : (unknowns,) [mm].
     pressure : (elements, 3), see `MeshState` [MPa].
     acting : the tractions.
-    speed : V at which viscoelastic layers pass [mm/s].
+    speed : V at which the covering passes [mm/s]; viscoelastic layers need it.
     """
 
     ends: Array
@@ -86,7 +86,7 @@ class Equilibrium:
 
 
 def deformed_surface(body: Body, state: MeshState) -> DeformedSurface:
-    """Return where the surface of a mesh is."""
+    """Return the deformed surface of a mesh."""
     strip, curvature = body.strip, body.strip.depths.roller.curvature
     moved, arcs = strip.on_surface(state.displacement)[::2], strip.ends
     x, y = on_circle(arcs, curvature)
@@ -95,7 +95,7 @@ def deformed_surface(body: Body, state: MeshState) -> DeformedSurface:
 
 
 def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
-    """Return u_x along the surface and u_z into the roller of linear theory, at the same points."""
+    """Return u_x along and u_z into the undeformed roller, at the same points (linear theory)."""
     moved = body.strip.on_surface(displacement)[::2]
     angle = body.strip.depths.roller.curvature * body.strip.ends
     cos, sin = np.cos(angle), np.sin(angle)
@@ -103,38 +103,38 @@ def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
 
 
 class FiniteResponse:
-    """Displacement beyond the linear one of a covering under tractions, evaluated repeatedly.
+    """The correction of one covering, evaluated repeatedly under changing tractions.
 
-    Each equilibrium starts from the one before, the first from one given, if any. Where none is
-    found, that under tractions between the last and the new ones is looked for; the first ones
-    begin at a share of themselves.
+    Each equilibrium starts from the one before, the first from ``start`` if that is given. Where
+    none is found, the load step is halved: from the last tractions towards the new ones or, at the
+    first evaluation, from zero.
 
     Attributes
     ----------
-    is_found : whether there was an equilibrium; else the last displacement is returned.
-    share : of the step from the last tractions to the new ones for which there was one.
-    rough : the displacement before it was smoothed.
-    moved : the tractions at the arcs of the material that they act on; None: no traction.
-    lost : heat inside per distance beyond that of linear theory under these [N/mm]; 0 in elastic
-        layers.
+    is_found : whether an equilibrium was found; if not, the last correction is returned again.
+    share : of the step from the last tractions to the new ones at which it was found.
+    rough : the correction before the low-pass filter.
+    moved : the tractions at the arcs of the material that they act on; None without tractions.
+    lost : heat per rolled distance beyond that of linear theory under ``moved`` [N/mm]; 0 where
+        all layers are elastic.
 
     Parameters
     ----------
     roller :
         with a rigid core.
     half_width :
-        of the contact, roughly [mm]: it sets the elements over the depth.
+        of the contact, roughly [mm]; it sets the elements over the depth.
     linear :
         the displacement of its surface in linear theory.
     cut :
-        wave number, over the half-width of the tractions, of which half is left; more under a thin
-        skin.
+        cut-off of the filter: wave number times the half-width of the tractions. A thin stiff skin
+        may raise it.
     speed :
-        V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
+        V at which the covering passes [mm/s]; viscoelastic layers need it.
     start :
-        an equilibrium of a covering much like this one; it counts where it has as many elements.
+        equilibrium of a similar covering; used if it has as many elements.
     kept :
-        share of all these wave numbers, those under a thin skin too.
+        factor of the cut-off, also of the one for a skin.
     """
 
     def __init__(
@@ -173,7 +173,7 @@ class FiniteResponse:
 
     @property
     def equilibrium(self) -> Equilibrium | None:
-        """The last equilibrium; None: there was none."""
+        """The last equilibrium; None where there was none."""
         if self._mesh is None:
             return None
         body, state = self._mesh.body, self._mesh.state
@@ -204,16 +204,16 @@ class FiniteResponse:
         roughly: bool = False,
         is_parted: bool = False,
     ) -> tuple[Spline, ...]:
-        """Return u_x and u_z beyond the linear ones as functions of the present place x.
+        """Return the corrections of u_x and u_z as functions of the present place x.
 
         Parameters
         ----------
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         rate : speed of the undeformed surface over that of linear theory.
-        roughly : whether less is good enough while tractions are far from their solution: a mesh
-            of before if the contact has not moved far, its errors as they were, and half the waves.
-        is_parted : whether stick and slip meet within the contact, see `Columns.places`.
+        roughly : save time while tractions are far from their solution: the last mesh is used even
+            if the contact has moved a little more, and its errors as they were; half the waves.
+        is_parted : whether the contact has zones of stick and of slip, see `Columns.places`.
         """
         self._left = _COARSE_RESIDUAL if roughly else LEFT
         self._share_kept = _COARSE_WAVE_SHARE if roughly else 1.0
@@ -239,7 +239,7 @@ class FiniteResponse:
         return self._made
 
     def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
-        """Return u_x and u_z of an equilibrium beyond those of linear theory."""
+        """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
@@ -250,7 +250,7 @@ class FiniteResponse:
         return tuple(through(x, row) for row in u)
 
     def _smoothing_for(self, start: float, stop: float) -> Smoothing:
-        """Return the smoothing for a contact; the same while the contact is about the same."""
+        """Return the filter for a contact; the last one as long as that has about its size."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
         cut = self._kept * self._share_kept * max(self._cut / half, self._columns.cut)
         given, last = np.array([middle, half, 1.0 / cut]), self._smoothed_for
@@ -262,10 +262,10 @@ class FiniteResponse:
         return self._smoothing
 
     def _error_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
-        """Return the error of the elements in linear theory, (2, n).
+        """Return the discretisation error of the mesh in linear theory, (2, n), and set ``lost``.
 
-        Under the tractions on the material that they act on now: the elements are loaded as at
-        finite strain.
+        Tractions act on the same material as at finite strain, so that the elements are loaded
+        alike and their errors cancel.
         """
         self.moved = moved = mesh.acting.moved(x, arcs)
         tractions = moved.tractions
@@ -279,10 +279,9 @@ class FiniteResponse:
         return made
 
     def _solved(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh | None:
-        """Return the equilibrium, on the mesh of the last tractions if these were about here.
+        """Return the equilibrium under some tractions, or at first under a share of them.
 
-        None where there is no equilibrium but there was one under the last tractions. Of the first
-        ones a share counts, too.
+        None where there is none but there was one under the last tractions.
         """
         try:
             return self._solved_now(places, loaded, acting)
@@ -290,7 +289,7 @@ class FiniteResponse:
             return None if self._mesh is not None else self._lightly(places, loaded, acting)
 
     def _lightly(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
-        """Return an equilibrium under a share of the first tractions."""
+        """Return the equilibrium under half of the first tractions, or a quarter, and so on."""
         while self.share > _LEAST_SHARE:
             self.share *= 0.5
             try:
@@ -300,7 +299,7 @@ class FiniteResponse:
         raise NoEquilibriumError
 
     def _partly(self, acting: Acting) -> _LoadedMesh:
-        """Return an equilibrium with only a share of the step from the last tractions to these."""
+        """Return the equilibrium half-way from the last tractions to these, or a quarter, ..."""
         last = self._mesh
         assert last is not None
         while self.share > _LEAST_SHARE:
@@ -315,7 +314,7 @@ class FiniteResponse:
         raise NoEquilibriumError
 
     def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
-        """Return the equilibrium under these tractions."""
+        """Return the equilibrium under these tractions, on the last mesh if that lies well."""
         last, tractions = self._mesh, acting.tractions
         stays = self._move_factor * _STAYS * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, stays):
@@ -339,7 +338,7 @@ class FiniteResponse:
     def _moved(
         self, mesh: _LoadedMesh, places: Array, loaded: slice
     ) -> tuple[Body, Body, MeshState]:
-        """Return a mesh whose loaded columns come to lie at their places, with a state."""
+        """Return a mesh whose loaded columns lie at their present places, and the state on it."""
         surface = deformed_surface(mesh.body, mesh.state)
         strip, state = mesh.body.strip, mesh.state
         front = np.abs(surface.arcs) < _FRONT / max(strip.depths.roller.curvature, 1e-300)
@@ -350,10 +349,10 @@ class FiniteResponse:
         return flat, body, state.on_columns(strip, body.strip)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
-        """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.
+        """Return a mesh with loaded columns at the arcs ``under``: for linear theory, and as it is.
 
-        Raises `NoEquilibriumError` where they do not increase: material has passed by other
-        material, or has left the places of the tractions.
+        Raises `NoEquilibriumError` where arcs do not increase: the surface folds over, or has left
+        the places of the tractions.
         """
         arcs = places.copy()
         arcs[: loaded.start] += under[0] - places[loaded.start]
@@ -367,7 +366,7 @@ class FiniteResponse:
 
 @dataclass(frozen=True)
 class _LoadedMesh:
-    """A mesh in equilibrium: as it is in linear theory, at finite strain, and its tractions."""
+    """A mesh, for linear theory (``flat``) and at the speed of finite strain, in equilibrium."""
 
     flat: Body
     body: Body
@@ -376,7 +375,7 @@ class _LoadedMesh:
     acting: Acting
 
     def is_near(self, places: Array, speed: float | None, stays: float) -> bool:
-        """Return whether the loaded columns are about at some places and pass about as fast."""
+        """Return whether loaded columns lie within ``stays`` of some places, at about the speed."""
         own = self.body.speed
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
@@ -387,6 +386,6 @@ class _LoadedMesh:
 
 
 def _nothing(nodes: Array) -> tuple[Spline, Spline]:
-    """Return no displacement."""
+    """Return corrections that are zero."""
     flat = Spline.through(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
     return flat, flat

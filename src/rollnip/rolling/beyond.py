@@ -1,12 +1,19 @@
-"""What a geometry of finite strain adds to the influence functions of both rollers.
+"""Contacts in the geometries of finite strain: the fixed-point iteration of "finite".
 
-"second" adds the second order, which every mesh evaluates again. "finite" adds all orders by finite
-elements instead: what they give beyond the linear displacements is a correction, which is held
-while a contact is solved and evaluated again from its solution. Where surfaces slip or layers are
-viscoelastic the first contact holds the second order, which costs less than an iteration with
-elements (not where friction grips a stiff skin: there the stretch is held). In free rolling the
-correction is a few hundredths of the first-order terms, and of elastic layers an iteration leaves a
-seventh of its error at most.
+In "second" the second order of finite strain is added to the influence functions, and every mesh
+evaluates it anew. In "finite" all orders are included by finite elements:
+
+    u = u_linear(p, q) + d,    d = c(p, q).
+
+The contact is solved with a correction d that is kept fixed ("held"), then the correction c is
+evaluated by finite elements under the tractions of the solution, and so on until both agree.
+Anderson acceleration combines the last corrections. In free rolling the correction is a few
+hundredths of the first-order terms, and with elastic layers an iteration leaves a seventh of its
+error at most.
+
+Where surfaces slip or layers are viscoelastic, d is at first the second order, which costs less
+than an iteration with finite elements. Where friction grips a stiff skin there is no second order;
+the stretch of both surfaces is held as well.
 """
 
 from __future__ import annotations
@@ -49,23 +56,27 @@ from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
-_DEPTH = 5  # corrections of which a mean is taken
+_DEPTH = 5  # corrections that Anderson acceleration combines
 _COMPARED = 65  # places at which they are compared
-MOST_CORRECTIONS = 30  # of the correction and the contact
-SMALL = 0.05  # change of an iteration from which it may be the last one
-_MOST_RESTARTS = 3  # iterations that are solved from the beginning
-# Of the wave numbers: with all of them iterations may not settle beside an edge that slips at
-# strains of two and more. Which cut they need is not known before; what it costs is claimed.
+MOST_CORRECTIONS = 30  # iterations with one cut-off
+SMALL = 0.05  # change of the correction in an iteration below which that may be the last one
+_MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
+# Factors of the cut-off, tried in turn: beside an edge that slips at strains of two and more the
+# iteration may not converge with the first. Which one it needs is not known beforehand; the error
+# of the cut-off is claimed.
 SHARES_KEPT = (1.0, 0.5, 0.25)
-# Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
-# by 0.007 of the approach have changed the peak of pressure beside an edge by a half.
+# Largest tolerance of nips with a stiff skin: violations of the contact conditions by 0.007 of the
+# approach have changed the pressure peak beside an edge by a half.
 UNDER_SKINS = 1e-3
 
 
 def with_second_order(
     kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float, cache: KernelCache
 ) -> PairKernels:
-    """Add the second order of finite strain, on grids fit for a contact of that size."""
+    """Return influence functions with responses of second order, for a contact of about this size.
+
+    Unchanged in other geometries than "second". ``half_width`` in [mm].
+    """
     if geometry != "second":
         return kernels
 
@@ -86,14 +97,19 @@ def refine_all_orders(
     is_too_deep: IsTooDeep,
     near: Nearby | None = None,
 ) -> tuple[PairKernels, Round]:
-    """Solve a contact by iteration with the correction of all orders.
+    """Solve a contact in the geometry "finite", by iteration of contact and correction.
 
-    Where a nip much like it has been solved, iterations start from that solution.
+    Parameters
+    ----------
+    kernels : influence functions without finite strain.
+    half_width : first guess [mm].
+    is_too_deep : tells which solutions press a layer in too far.
+    near : the solution of a similar nip, from which the iteration starts if it can.
 
     Returns
     -------
-    The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it has not settled; ``ended`` tells how far iterations got.
+    The influence functions with the last correction, and the solution with it. Where the iteration
+    does not converge, that solution is not ``settled``, and ``ended`` says how far it got.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -120,7 +136,7 @@ def refine_all_orders(
                 return found
             ended = found
             if ended.cause == "balance" and ended.iterations == 0:
-                break  # the tractions to begin with have none, whatever waves are kept
+                break  # the first tractions have no equilibrium, whatever the cut-off
     return start, replace(latest, settled=False, ended=ended)
 
 
@@ -132,9 +148,9 @@ def _from_nearby(
     near: Nearby | None,
     is_too_deep: IsTooDeep,
 ) -> tuple[PairKernels, Round] | None:
-    """Solve from the solution of a nip near by; None where there is none or it is too far.
+    """Solve by iteration from the solution of a similar nip; None where that does not succeed.
 
-    ``sizes``: half-width of the contact [mm] and strain of the surface.
+    ``sizes``: half-width of the contact [mm] and strain of its surface.
     """
     half_width, strain = sizes
     begun = None if near is None else near.begun(nip, model, kernels, half_width)
@@ -147,10 +163,17 @@ def _from_nearby(
 
 @dataclass
 class Past:
-    """Corrections that contacts were solved with, and those that belong to their solutions.
+    """Anderson acceleration of the corrections (Anderson 1965, J. ACM 12, 547-560).
 
-    The next one is that mean of the latter for which the differences of both are smallest
-    (Anderson 1965, J. ACM 12, 547-560).
+    Of the last iterations it keeps the correction that the solution led to and its difference from
+    the one that the contact was solved with. The next correction is the combination of the former
+    for which the same combination of the differences is smallest.
+
+    Attributes
+    ----------
+    x : (n,) places at which corrections are compared [mm].
+    made : the last corrections that solutions led to, oldest first.
+    distances : (4 n,) the differences of each at ``x``.
     """
 
     x: Array
@@ -158,7 +181,11 @@ class Past:
     distances: list[Array] = field(default_factory=list)
 
     def next(self, held: SecondFields, made: SecondFields) -> SecondFields:
-        """Return the correction to solve with next."""
+        """Return the correction to solve with next.
+
+        ``held``: the one that the last contact was solved with; ``made``: the one that its solution
+        led to.
+        """
         distance = (made.at(self.x).four - held.at(self.x).four).ravel()
         self.made = [*self.made, made][-_DEPTH:]
         self.distances = [*self.distances, distance][-_DEPTH:]
@@ -170,7 +197,7 @@ class Past:
 
 
 def _mean(shares: Array, fields: Sequence[SecondFields]) -> SecondFields:
-    """Return a weighted sum of corrections."""
+    """Return the sum of corrections with the weights ``shares``."""
     functions: list[Field | None] = []
     for several in zip(*(one.functions for one in fields), strict=True):
         splines = [f for f in several if isinstance(f, Spline)]
@@ -201,11 +228,11 @@ Found = TypeVar("Found")
 
 @dataclass
 class Least(Generic[Found]):
-    """The solution that violates the contact conditions least, with the correction of its own.
+    """The best solution so far: it violates the contact conditions least under its own correction.
 
     Attributes
     ----------
-    found : that solution; None as long as all violate them by more than the tolerance.
+    found : that solution; None as long as all violate the conditions by more than the tolerance.
     left : violation by the last solution, over the tolerance.
     """
 
@@ -213,10 +240,16 @@ class Least(Generic[Found]):
     left: float = inf
 
     def is_enough(self, found: Found, left: float, to_come: float, cut: float = 0.0) -> bool:
-        """Take in a further solution; return whether there is one to stop at.
+        """Compare a further solution; return whether the iteration may stop with the best one.
 
-        ``left``: violation by it, over the tolerance; ``to_come``: sum of the changes to come, over
-        the tolerance; ``cut``: violation by what is cut from its correction, likewise.
+        It may when the violation or the changes to come are small, or the violation grew again.
+
+        Parameters
+        ----------
+        found : the solution.
+        left : its violation of the contact conditions, over the tolerance.
+        to_come : sum of the changes to come of its correction, over the tolerance.
+        cut : violation on account of the cut-off, over the tolerance.
         """
         before, self.left = self.left, left
         if left <= min(1.0, before):
@@ -235,12 +268,18 @@ def _iterated(
     *,
     is_near: bool = False,
 ) -> tuple[PairKernels, Round] | Ended:
-    """Solve the contact and evaluate its correction by iteration.
+    """Iterate contact and correction, with one cut-off.
 
-    On a coarse mesh until the changes to come are small, then on a refined one until the contact
-    conditions are met with the correction that belongs to the solution itself. A contact that
-    presses a layer in too far is not refined. ``begun``: a contact and what it holds;
-    ``is_near``: whether that is the correction of a nip near by.
+    On a coarse mesh as long as the correction changes much, then on a refined one until the contact
+    conditions are met with the correction of the solution itself. A contact that presses a layer in
+    too far is not refined.
+
+    Parameters
+    ----------
+    begun : influence functions with the first correction, and the contact solved with it.
+    orders : the finite elements.
+    stage : of that contact.
+    is_near : whether the first correction is that of a similar nip.
     """
     kernels, latest = begun
     change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
@@ -263,7 +302,7 @@ def _iterated(
             left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
                 break
-            if iteration == 0:  # with a nearby nip's correction: later ones may violate them more
+            if iteration == 0:  # with the correction of a similar nip: no measure for later ones
                 least = Least()
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
@@ -291,15 +330,15 @@ def _edges(latest: Round) -> tuple[float, float]:
 
 
 def even_places(edges: tuple[float, float]) -> Array:
-    """Return places at which corrections are compared, at even distances.
+    """Return evenly spaced places at which corrections are compared.
 
-    Dense beside the edges, the short waves there would hide what is slow to settle.
+    With dense places beside the edges, short waves there would hide what converges slowly.
     """
     return np.linspace(*edges, _COMPARED)
 
 
 def places_by_the_edges(edges: tuple[float, float]) -> Array:
-    """Return places dense beside the edges, where last changes are."""
+    """Return places that are dense beside the edges, where corrections converge last."""
     start, stop = edges
     shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _COMPARED))
     return np.asarray(start + (stop - start) * shares)
@@ -310,8 +349,9 @@ def _with_own_correction(
 ) -> Round:
     """Return a solution with its violation of the contact conditions under its own correction.
 
-    With the stretch of the displacements themselves, and where the conditions are met also with the
-    violation by what was cut from the correction.
+    The stretch is that of the displacements, even where another one was held. Where the conditions
+    are met, they are evaluated once more with the correction before the low-pass filter; ``cut`` is
+    the violation then.
     """
     assert kernels.held is not None
     own = replace(kernels, held=replace(kernels.held, stretch=None))
@@ -326,12 +366,15 @@ def _with_own_correction(
 
 
 def _with(latest: Round, kernels: PairKernels) -> Round:
-    """Return a solution whose mesh has the correction of some influence functions."""
+    """Return a solution whose mesh holds the correction of some influence functions."""
     return replace(latest, mesh=latest.mesh.holding(kernels))
 
 
 def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
-    """Return by how much a correction changes the terms of finite strain of a solution."""
+    """Return by how much another correction changes the finite-strain terms of a solution.
+
+    Relative to its first-order terms.
+    """
     mesh = _with(latest, kernels).mesh
     own = second_order(nip, model.geometry, mesh, latest.state)
     return change_of(own, latest.second, mesh, nip, latest.state)

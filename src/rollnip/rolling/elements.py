@@ -1,4 +1,4 @@
-"""Finite elements of both rollers: what they give beyond the linear displacements of a nip."""
+"""The correction of both rollers of a nip by finite elements, beyond linear displacements."""
 
 from __future__ import annotations
 
@@ -22,20 +22,24 @@ from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
 Acting = tuple[Array, Array, Array]
-"""Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
-_STRAIN = 0.6  # of a surface at which waves up to half the number are kept
+"""Nodes (N+1,) [mm], and pressure and shear at nodes[1:-1] as they act on a roller [MPa]."""
+_STRAIN = 0.6  # strain of a surface that halves the cut-off
 
 
 def share_of_waves(strain: float) -> float:
-    """Return the share of the wave numbers that are kept at a strain of the surface."""
+    """Return the factor of the cut-off at a strain of the surface."""
     return 1.0 / (1.0 + strain / _STRAIN)
 
 
 @dataclass(frozen=True)
 class AllOrders:
-    """Finite elements of both rollers; None for a rigid one.
+    """The corrections of both rollers of a nip.
 
-    ``share``: of the wave numbers that are kept as a rule.
+    Attributes
+    ----------
+    nip : with both rollers.
+    upper, lower : finite elements of either roller; None for a rigid one.
+    share : factor of the cut-off.
     """
 
     nip: Nip
@@ -53,10 +57,10 @@ class AllOrders:
         share: float = 1.0,
         bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None),
     ) -> AllOrders:
-        """Prepare elements for a contact of about that half-width [mm] and surface strain.
+        """Prepare finite elements for a contact of about this half-width [mm] and surface strain.
 
-        ``share``: of the wave numbers that are kept as a rule; ``bodies``: equilibria of the upper
-        and the lower roller of a nip much like this one.
+        ``share``: factor of the cut-off; ``bodies``: equilibria of the upper and the lower roller
+        of a similar nip, to start from.
         """
         cut = CUT * share_of_waves(strain)
 
@@ -74,11 +78,11 @@ class AllOrders:
     def beyond(
         self, latest: Round, kernels: PairKernels, *, roughly: bool
     ) -> tuple[SecondFields, bool]:
-        """Return what all orders add to the linear displacements of a bare nip, see `under`.
+        """Return the correction under the tractions of a solution without a sheet, see `under`.
 
-        With the stretch that belongs to it where friction holds a skin, for the correction of u_x
-        alone is that of a surface turned as those tractions turn it: others would turn it
-        otherwise, and a stiff skin answers the difference with a shear.
+        Where friction grips a stiff skin the stretch of both surfaces belongs to it. The correction
+        of u_x alone is that of a surface rotated by these tractions; the next ones rotate it
+        otherwise, and a stiff skin would answer the difference with a shear.
         """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
@@ -99,22 +103,23 @@ class AllOrders:
         roughly: bool,
         is_parted: bool = False,
     ) -> tuple[SecondFields, bool]:
-        """Return what all orders add to the linear displacements under tractions of both rollers.
-
-        Raises `NoEquilibriumError` where there is no equilibrium.
+        """Return the correction under given tractions of both rollers.
 
         Parameters
         ----------
-        sides : of the upper and of the lower roller: nodes (N+1,) [mm], and pressure and shear at
-            nodes[1:-1] as they act on that roller, (N-1,) [MPa].
+        sides : tractions of the upper and of the lower roller.
         creepage : of the upper roller against the lower one.
-        roughly : on a mesh of before as long as the contact has not moved far.
-        is_parted : whether stick and slip meet within the contact.
+        roughly : whether tractions are far from their solution, see `FiniteResponse.displacement`.
+        is_parted : whether the contact has zones of stick and of slip.
 
         Returns
         -------
-        The correction, and whether it is that of the tractions themselves, not of some on the way
-        to them.
+        The correction, and whether it is that of the whole tractions, not of a smaller load step.
+
+        Raises
+        ------
+        NoEquilibriumError
+            where a roller has no equilibrium.
         """
         functions: list[Field | None] = []
         rough: list[Field | None] = []
@@ -150,8 +155,8 @@ def _stretch_beyond(
 ) -> Stretch:
     """Return the stretch of a surface beyond the linear one under the tractions of a contact.
 
-    It is that of both the linear displacements and the correction, integrated from node to node,
-    and smooth from column to column.
+    It is the stretch by linear displacements and correction together, less that of linear theory,
+    integrated along the surface and interpolated by a spline between the ends of columns.
     """
     columns = made.rough[2 * side]
     if not isinstance(columns, Spline):
@@ -172,9 +177,10 @@ def _equilibrium(response: FiniteResponse | None) -> Equilibrium | None:
 def _lost_aside(
     roller: Roller, speed: float | None, response: FiniteResponse, acting: Acting
 ) -> float:
-    """Return the heat of linear theory under tractions at the arcs of the material, less theirs.
+    """Return by how much linear theory's heat is larger with the tractions at arcs of the material.
 
-    Elements give what is beyond linear theory under the former.
+    Finite elements give the heat beyond that; the heat beyond linear theory with the tractions at
+    their present places is the sum.
     """
     if not roller.is_viscoelastic or response.moved is None:
         return 0.0

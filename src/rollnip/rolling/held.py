@@ -1,8 +1,9 @@
-"""Contacts with a correction of all orders that is held, on ever better meshes.
+"""Contacts solved with a correction that is held, on better meshes as the correction converges.
 
-While the correction changes much, a coarse contact is enough. Under stiff foils with friction, and
-where one with free ends is not found from a guess of the width, contact, stick and slip are sought
-node by node until the correction has settled; only then free ends take over the zones.
+As long as the correction changes much, a coarse contact is enough. Its zones have free ends as soon
+as those are found. Under stiff foils with friction, and where free ends are not found from a guess
+of the width, contact, stick and slip are sought node by node until the correction has converged;
+only then their zones get free ends.
 """
 
 from __future__ import annotations
@@ -38,36 +39,37 @@ from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH, SearchState
 from rollnip.rolling.surfaces import PairKernels
 
-# Violation of the contact conditions, or last change, from which iterations need not go on: over
-# the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
+# Violation of the contact conditions, or change of the correction, below which the iteration may
+# end: over the tolerance or, if that is larger, over the violation on account of the cut-off, which
+# is claimed anyway.
 ENOUGH = 0.3
-_COARSE = 24  # elements of the contact while its correction still changes
-NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-# Tolerance of such contacts, and about how far a correction moves ends of zones, over the width.
+_COARSE = 24  # elements of a coarse contact
+NEARLY = 6.0  # change, over the tolerance, below which a contact found node by node is refined
+# Tolerance of coarse contacts; also about how far a correction moves ends of zones, over the width.
 _COARSELY = 1e-2
 
 
 Responses = Callable[[], PairKernels]
-"""Influence functions with responses of second order."""
+"""A function that returns influence functions with responses of second order."""
 
 
 class Stage(IntEnum):
-    """How good a contact is that a correction is evaluated from."""
+    """How accurately the contact is solved that a correction is evaluated from."""
 
-    COARSE = 0
-    FINE = 1  # sought node by node, on a fine mesh
-    REFINED = 2
+    COARSE = 0  # few elements, with free ends or node by node
+    FINE = 1  # node by node, on a fine mesh
+    REFINED = 2  # with free ends, to the tolerance
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far the iterations of a correction have come.
+    """How far the correction has converged.
 
     Attributes
     ----------
-    change : by which the last one changed the terms of finite strain.
-    to_come : that change or the sum of those to come, whichever is less, over the tolerance; inf
-        where the correction is not that of the tractions themselves.
+    change : last change of the finite-strain terms, relative to the first-order ones.
+    to_come : the smaller of that change and the sum of the changes to come, over the tolerance; inf
+        where the correction is not yet that of the whole tractions.
     """
 
     change: float
@@ -82,14 +84,16 @@ def begin(
     second: Responses | None = None,
     is_too_deep: IsTooDeep | None = None,
 ) -> tuple[PairKernels, Round, Stage]:
-    """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
+    """Return the first contact of an iteration, the influence functions it has, and its stage.
 
-    And the influence functions with the correction that it holds: that of ``kernels`` or, with
-    ``second``, the second order under the tractions of nodes. An elastic nip of a single zone
-    goes without: an iteration leaves so little of the error of the correction there that the second
-    order saves none. A contact that is too deep is returned as its nodes found it. Where friction
-    grips a stiff skin no ends are sought yet: its short zones beside the edges come and go with the
-    correction, and iterations from those would follow them.
+    It is found node by node and then given free ends on a coarse mesh or, where that fails on all
+    coarse meshes, on refined ones; where that fails, too, it stays as it was found. So do a contact
+    that is too deep, and one where friction grips a stiff skin: short zones beside its edges come
+    and go with the correction, and an iteration with free ends would follow them.
+
+    The correction held is that of ``kernels`` or, with ``second``, the second order under the
+    tractions found node by node. Elastic nips of a single zone do without the second order: one
+    iteration leaves so little of the error of the correction that it saves none.
     """
     coarse_model = coarsely(model)
     sizes = by_nodes(nip, coarse_model, kernels, half_width, COARSE_SIZES)
@@ -118,9 +122,10 @@ def begin(
 def refined_at_once(
     nip: Nip, model: Model, second: PairKernels, coarse: Round
 ) -> tuple[PairKernels, Round, Stage]:
-    """Return a refined contact that holds the second order of a coarse one, and what holds it.
+    """Return a refined contact with the second order of a coarse one held.
 
-    The coarse one itself where the ends of zones are not found on finer meshes.
+    With its influence functions and its stage. Where free ends are not found on finer meshes it is
+    the coarse contact itself.
     """
     held, before = _holding_second_order(nip, model, second, coarse)
     refined = _with_free_ends(nip, model, held, before)
@@ -134,7 +139,7 @@ def _holding_second_order(
 ) -> tuple[PairKernels, Round]:
     """Return influence functions that hold the second order of a solution, and it with them.
 
-    Of its waves those are left out that are too short at the strain of the solution.
+    Waves of the second order beyond the cut-off at the strain of the solution are left out.
     """
     kept = share_of_waves(surface_strain_in_nip(nip, model.geometry, latest))
     half_width = 0.5 * latest.figures.nip_width / kept
@@ -151,10 +156,10 @@ def _holding_second_order(
 def solved_next(
     nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, progress: Progress
 ) -> tuple[Round, Stage]:
-    """Solve with another correction, on better meshes where it is nearly right.
+    """Solve with the next correction, on a better mesh if the correction has converged that far.
 
-    Where that fails the round has not settled; but nodes of a first mesh go on there until the
-    correction has come further.
+    Where there is no solution, the round returned is not ``settled``. Only a coarse contact found
+    node by node goes on as it is if the better mesh fails, until the correction has converged more.
     """
     if progress.to_come <= _enough_for_better(model, latest, stage):
         found, better = _better(nip, model, kernels, latest, stage)
@@ -164,20 +169,20 @@ def solved_next(
 
 
 def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
-    """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
+    """Return the change of the correction, over the tolerance, below which a better mesh pays."""
     if stage is Stage.REFINED:
         return -inf
     if stage is Stage.FINE:
         return ENOUGH
     if not latest.is_placed:
         return NEARLY
-    return 1.0 / model.tolerance  # a change of less than the terms themselves
+    return 1.0 / model.tolerance  # it changes by less than the first-order terms themselves
 
 
 def _better(
     nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage
 ) -> tuple[Round, Stage]:
-    """Solve on better meshes, with a correction that is held and nearly right."""
+    """Solve on the meshes of a better stage, with a correction that has nearly converged."""
     if latest.is_placed:
         found = _refined(nip, model, kernels, latest)
         return found, Stage.REFINED if found.is_placed else Stage.FINE
@@ -186,23 +191,23 @@ def _better(
         return ready, Stage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)
     if finer is None and ready is not None:
-        return ready, Stage.REFINED  # its errors stay too large, and are said
+        return ready, Stage.REFINED  # its errors stay too large, and are reported
     return finer or replace(latest, settled=False), Stage.FINE
 
 
 def coarsely(model: Model) -> Model:
-    """Return the model of contacts whose correction still changes."""
+    """Return the model with the tolerance of a coarse contact."""
     return replace(model, tolerance=max(model.tolerance, _COARSELY))
 
 
 def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """Refine a solution with free ends on a coarse mesh, with a correction that is held."""
+    """Refine a coarse solution with free ends; where that fails, start from its width alone."""
     found = _with_free_ends(nip, model, kernels, latest)
     return found or refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
 def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round | None:
-    """Return a verified solution with about the zones of a coarse one; None: there is none."""
+    """Return a verified solution with about the zones of a coarse one; None where there is none."""
     layout = Layout.of(latest.zones)
     if layout is None:
         return None
@@ -213,7 +218,10 @@ def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round)
 def restarted(
     nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round
 ) -> tuple[PairKernels, Round, Stage]:
-    """Begin again: with a mean of corrections or, if it leads astray, the last one."""
+    """Return a first contact anew: with the accelerated correction or, if that fails, the last one.
+
+    ``both``: influence functions with either.
+    """
     half_width = 0.5 * latest.figures.nip_width
     for kernels in both if both[0].held is not both[1].held else both[:1]:
         held, found, stage = begin(nip, model, kernels, half_width)
@@ -225,7 +233,7 @@ def restarted(
 def _solved_again(
     nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
 ) -> Round:
-    """Solve with another correction; where that fails the round has not settled."""
+    """Solve at the same stage with the next correction; not ``settled`` where that fails."""
     if not latest.is_placed:
         if change > NEAR_ENOUGH:
             half_width = 0.5 * latest.figures.nip_width
@@ -240,10 +248,11 @@ def _solved_again(
 
 
 def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """Solve with another correction, which moves free ends of zones.
+    """Solve with the next correction, which moves the free ends of zones.
 
-    These move to where the last solution put them; nodes that crowd at a boundary layer need ends
-    that are placed, but where friction holds a skin: there the correction moves them more.
+    One mesh is enough if the ends are moved to where the last solution puts them. Nodes that crowd
+    at a boundary layer need ends that are placed exactly, except where friction grips a skin: there
+    the correction moves them by more than that.
     """
     layout, found = Layout.of(latest.zones), None
     if layout is not None:

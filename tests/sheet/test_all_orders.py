@@ -11,7 +11,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.finite import NoEquilibriumError, columns, strip
 from rollnip.rolling import surface_depths
-from rollnip.rolling.elements import AllOrders
+from rollnip.rolling.corrections import AllOrders
 from rollnip.sheet import all_orders
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap
 

@@ -9,7 +9,7 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.rolling import placing
-from rollnip.rolling.elements import AllOrders
+from rollnip.rolling.corrections import AllOrders
 from rollnip.sheet import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -13,11 +13,11 @@
    what the figures claim (`claimed_errors`).
 
 At finite strain a correction of all orders is held through steps 2 to 4 and evaluated again from
-their solution, until both agree (`beyond`, `held`).
+their solution, until both agree (`all_orders`, `contact_stages`, `corrections`).
 """
 
+from rollnip.rolling.all_orders import refine_all_orders, with_second_order
 from rollnip.rolling.assemble import stretch_excess, surface_depths
-from rollnip.rolling.beyond import refine_all_orders, with_second_order
 from rollnip.rolling.check import (
     PairFields,
     fields_at,

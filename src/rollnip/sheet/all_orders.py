@@ -1,9 +1,9 @@
 """Finite strain of all orders with a sheet: the contact and both corrections, by iteration.
 
-As in a bare nip (`rollnip.rolling.beyond`), the displacements of a surface are the linear ones plus
-a correction that is held while a contact is solved. With a sheet each roller has tractions of its
-own: pressure and the shear of its interface. The correction of each follows from these alone, so
-that iterations are those of a bare nip, and the sheet is no part of them.
+As in a bare nip (`rollnip.rolling.all_orders`), the displacements of a surface are the linear ones
+plus a correction that is held while a contact is solved. With a sheet each roller has tractions of
+its own: pressure and the shear of its interface. The correction of each follows from these alone,
+so that iterations are those of a bare nip, and the sheet is no part of them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.beyond import (
+from rollnip.rolling.all_orders import (
     MOST_CORRECTIONS,
     SHARES_KEPT,
     SMALL,
@@ -29,9 +29,9 @@ from rollnip.rolling.beyond import (
 )
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
+from rollnip.rolling.contact_stages import NEARLY, coarsely
+from rollnip.rolling.corrections import Acting, AllOrders
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.elements import Acting, AllOrders
-from rollnip.rolling.held import NEARLY, coarsely
 from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.kind import CLOSELY, ROUGHLY, S, SheetKind
 from rollnip.sheet.powers import smooth_works

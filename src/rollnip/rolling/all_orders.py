@@ -37,9 +37,7 @@ from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
-from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
-from rollnip.rolling.elements import AllOrders
-from rollnip.rolling.held import (
+from rollnip.rolling.contact_stages import (
     ENOUGH,
     NEARLY,
     Progress,
@@ -49,6 +47,8 @@ from rollnip.rolling.held import (
     restarted,
     solved_next,
 )
+from rollnip.rolling.corrections import AllOrders
+from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
 from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.refinement import IsTooDeep

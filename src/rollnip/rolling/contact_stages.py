@@ -22,7 +22,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
-from rollnip.rolling.elements import share_of_waves
+from rollnip.rolling.corrections import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing

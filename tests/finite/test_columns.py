@@ -97,7 +97,7 @@ def test_contacts_of_other_nodes_one_after_the_other():
     def response(used, half, count):
         nodes = half * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, count))
         pressure = 0.05 * np.sqrt(1.0 - (nodes[1:-1] / half) ** 2)
-        return used.displacement(nodes, pressure, 0.2 * pressure)
+        return used.correction(nodes, pressure, 0.2 * pressure)
 
     used, x = response_of(FOIL), np.linspace(-HALF, HALF, 9)
     for half, count in ((1.5, 41), (1.4, 31)):

@@ -24,8 +24,8 @@ def counts(monkeypatch):
 
         return called
 
-    evaluation = counted("evaluations", FiniteResponse.displacement)
-    monkeypatch.setattr(FiniteResponse, "displacement", evaluation)
+    evaluation = counted("evaluations", FiniteResponse.correction)
+    monkeypatch.setattr(FiniteResponse, "correction", evaluation)
 
     def mesh_on(nodes, kernels, fine):
         """Count meshes with nodes at the ends of zones, not those on which zones are found."""

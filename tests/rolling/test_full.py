@@ -388,13 +388,13 @@ def test_a_memory_against_a_calculation_in_time(stored):
 def test_a_skin_takes_few_turns(monkeypatch):
     """Turns begin from the linear displacements: under a skin the second order misleads them."""
     turns = []
-    beyond_of = all_orders.AllOrders.beyond
+    beyond_of = all_orders.PairCorrection.of_contact
 
     def counted(self, *given, **named):
         turns.append(1)
         return beyond_of(self, *given, **named)
 
-    monkeypatch.setattr(all_orders.AllOrders, "beyond", counted)
+    monkeypatch.setattr(all_orders.PairCorrection, "of_contact", counted)
     solution = rn.solve(rn.read_case(EXAMPLES / "figure-4-top-layer-0.1mm.toml").nip, FULL)
     assert solution.converged
     assert solution.model.geometry == "finite"

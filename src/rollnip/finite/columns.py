@@ -77,7 +77,7 @@ class Columns:
         return cls(longest, max(reach, far), _skin(roller), _cut(roller), _squeezed(roller))
 
     def places(
-        self, nodes: Array, pressure: Array, *, is_parted: bool = False
+        self, nodes: Array, pressure: Array, *, has_several_zones: bool = False
     ) -> tuple[Array, slice]:
         """Return the present places of the ends of columns, and which of them bound loaded columns.
 
@@ -85,13 +85,13 @@ class Columns:
         ----------
         nodes : (N+1,) of the contact [mm].
         pressure : (N-1,) at nodes[1:-1].
-        is_parted : whether the contact has zones of stick and of slip. The columns of a stiff skin
-            then follow its edges, not its nodes: zones move from iteration to iteration, and the
-            errors of columns that follow them would move them again.
+        has_several_zones : whether the contact has zones of stick and of slip. The columns of a
+            stiff skin then follow its edges, not its nodes: zones move from iteration to iteration,
+            and the errors of columns that follow them would move them again.
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
-        if is_parted and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _WAVES:
+        if has_several_zones and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _WAVES:
             near = _crowded(near[0], near[-1], _INSIDE * self.skin)
         under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]

@@ -31,16 +31,16 @@ CUT = 150.0
 _NEAR = 4.0  # half-widths beyond which the correction is not needed
 _FRONT = 0.8  # largest arc of the front side, over the radius: x increases with the arc there
 _SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
-_STAYS = 0.01  # largest move of column ends with which it is, over the width of the contact
-_SHARE = 0.01  # tolerance of equilibria, over their first Newton step
+_SAME_PLACE = 0.01  # largest move of column ends with which it is, over the width of the contact
+_STEP_TOLERANCE = 0.01  # tolerance of equilibria, over their first Newton step
 # While tractions are far from their solution:
 _COARSE_WAVE_SHARE = 0.5  # factor of the cut-off
-_COARSE_MOVE_FACTOR = 2.5  # factor of `_STAYS`
+_COARSE_MOVE_FACTOR = 2.5  # factor of `_SAME_PLACE`
 _COARSE_MOVE_FACTOR_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
 _COARSE_RESIDUAL = 1e-4  # relative residual of iterative linear solutions
 
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
-_LEAST_SHARE = 0.1  # of the tractions, or of their change, down to which load steps are halved
+_LEAST_FRACTION = 0.1  # of the tractions, or of their change, until which load steps are halved
 _MOST_MESHES = 6  # until the columns lie where they should
 
 
@@ -112,11 +112,11 @@ class FiniteResponse:
     Attributes
     ----------
     is_found : whether an equilibrium was found; if not, the last correction is returned again.
-    share : of the step from the last tractions to the new ones at which it was found.
+    load_fraction : of the step from the last tractions to the new ones at which it was found.
     rough : the correction before the low-pass filter.
-    moved : the tractions at the arcs of the material that they act on; None without tractions.
-    lost : heat per rolled distance beyond that of linear theory under ``moved`` [N/mm]; 0 where
-        all layers are elastic.
+    arc_tractions : the tractions at the arcs of the material that they act on; None without any.
+    extra_heat : heat per rolled distance beyond that of linear theory under ``arc_tractions``
+        [N/mm]; 0 where all layers are elastic.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class FiniteResponse:
         V at which the covering passes [mm/s]; viscoelastic layers need it.
     start :
         equilibrium of a similar covering; used if it has as many elements.
-    kept :
+    cut_factor :
         factor of the cut-off, also of the one for a skin.
     """
 
@@ -145,31 +145,31 @@ class FiniteResponse:
         cut: float = CUT,
         speed: float | None = None,
         start: Equilibrium | None = None,
-        kept: float = 1.0,
+        cut_factor: float = 1.0,
     ) -> None:
         self._linear = linear
         self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
-        self._cut, self._kept = cut, kept
+        self._cut, self._cut_factor = cut, cut_factor
         self._columns = Columns.of(roller, half_width)
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
             self._near = min(self._near, _FRONT * roller.radius)
-        self._mesh = None if start is None else self._begun(start)
-        self._share_kept = 1.0
-        self._move_factor, self._left = 1.0, LEFT
-        self._coarsest_move = (
+        self._mesh = None if start is None else self._mesh_from(start)
+        self._coarse_factor = 1.0
+        self._move_factor, self._gmres_tolerance = 1.0, LEFT
+        self._coarse_move_factor = (
             _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
         )
-        self._off: Array | None = None
+        self._linear_error: Array | None = None
         self._smoothing: Smoothing | None = None
         self._smoothed_for: Array | None = None
-        self._made: tuple[Spline, ...] | None = None
+        self._last_correction: tuple[Spline, ...] | None = None
         self.rough: tuple[Spline, ...] = ()
         self.is_found = True
-        self.share = 1.0
-        self.lost = 0.0
-        self.moved: Acting | None = None
+        self.load_fraction = 1.0
+        self.extra_heat = 0.0
+        self.arc_tractions: Acting | None = None
 
     @property
     def equilibrium(self) -> Equilibrium | None:
@@ -186,7 +186,7 @@ class FiniteResponse:
             body.speed,
         )
 
-    def _begun(self, start: Equilibrium) -> _LoadedMesh | None:
+    def _mesh_from(self, start: Equilibrium) -> _LoadedMesh | None:
         flat = Body(Strip(self._depths, start.ends), self._speed)
         if flat.strip.size != start.displacement.size:
             return None
@@ -194,7 +194,7 @@ class FiniteResponse:
         state = MeshState(start.displacement, start.pressure)
         return _LoadedMesh(flat, body, state, start.loaded, start.acting)
 
-    def displacement(
+    def correction(
         self,
         nodes: Array,
         pressure: Array,
@@ -202,7 +202,7 @@ class FiniteResponse:
         rate: float = 1.0,
         *,
         roughly: bool = False,
-        is_parted: bool = False,
+        has_several_zones: bool = False,
     ) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z as functions of the present place x.
 
@@ -213,46 +213,46 @@ class FiniteResponse:
         rate : speed of the undeformed surface over that of linear theory.
         roughly : save time while tractions are far from their solution: the last mesh is used even
             if the contact has moved a little more, and its errors as they were; half the waves.
-        is_parted : whether the contact has zones of stick and of slip, see `Columns.places`.
+        has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
         """
-        self._left = _COARSE_RESIDUAL if roughly else LEFT
-        self._share_kept = _COARSE_WAVE_SHARE if roughly else 1.0
-        self._move_factor = self._coarsest_move if roughly else 1.0
+        self._gmres_tolerance = _COARSE_RESIDUAL if roughly else LEFT
+        self._coarse_factor = _COARSE_WAVE_SHARE if roughly else 1.0
+        self._move_factor = self._coarse_move_factor if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
-            self.rough, self.lost, self.moved = _nothing(nodes), 0.0, None
+            self.rough, self.extra_heat, self.arc_tractions = _no_correction(nodes), 0.0, None
             return self.rough
-        places, loaded = self._columns.places(nodes, pressure, is_parted=is_parted)
+        places, loaded = self._columns.places(nodes, pressure, has_several_zones=has_several_zones)
         acting = Acting.on(nodes, pressure, shear)
         try:
-            self.share = 1.0
-            mesh = self._solved(places, loaded, acting) or self._partly(acting)
+            self.load_fraction = 1.0
+            mesh = self._full_or_first_step(places, loaded, acting) or self._load_step(acting)
         except NoEquilibriumError:
             self.is_found = False
             self._mesh = None
-            self.rough = self._made = self._made or _nothing(nodes)
-            return self._made
+            self.rough = self._last_correction = self._last_correction or _no_correction(nodes)
+            return self._last_correction
         self.is_found, self._mesh = True, mesh
         self.rough = self._beyond_linear(mesh, roughly=roughly)
         start, stop = places[loaded][[0, -1]]
-        self._made = self._smoothing_for(float(start), float(stop))(self.rough)
-        return self._made
+        self._last_correction = self._smoothing_for(float(start), float(stop))(self.rough)
+        return self._last_correction
 
     def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
-        if not roughly or self._off is None or self._off.shape != u.shape:
-            self._off = self._error_in_linear_theory(mesh, x, surface.arcs[near])
-        u -= self._off + mesh.acting.linear_displacement(self._linear, x)
+        if not roughly or self._linear_error is None or self._linear_error.shape != u.shape:
+            self._linear_error = self._error_in_linear_theory(mesh, x, surface.arcs[near])
+        u -= self._linear_error + mesh.acting.linear_displacement(self._linear, x)
         through = Spline.bending if self._columns.skin < np.inf else Spline.through
         return tuple(through(x, row) for row in u)
 
     def _smoothing_for(self, start: float, stop: float) -> Smoothing:
         """Return the filter for a contact; the last one as long as that has about its size."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
-        cut = self._kept * self._share_kept * max(self._cut / half, self._columns.cut)
+        cut = self._cut_factor * self._coarse_factor * max(self._cut / half, self._columns.cut)
         given, last = np.array([middle, half, 1.0 / cut]), self._smoothed_for
         sizes = np.array([half, half, 1.0 / cut])
         if last is None or np.any(np.abs(given - last) > _SAME_SIZE * sizes):
@@ -262,49 +262,51 @@ class FiniteResponse:
         return self._smoothing
 
     def _error_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
-        """Return the discretisation error of the mesh in linear theory, (2, n), and set ``lost``.
+        """Return the discretisation error of the mesh in linear theory, (2, n); set `extra_heat`.
 
         Tractions act on the same material as at finite strain, so that the elements are loaded
         alike and their errors cancel.
         """
-        self.moved = moved = mesh.acting.moved(x, arcs)
+        self.arc_tractions = moved = mesh.acting.moved(x, arcs)
         tractions = moved.tractions
-        linear = mesh.flat.linear_displacements(tractions, self._left)
+        linear = mesh.flat.linear_displacements(tractions, self._gmres_tolerance)
         if mesh.body.memory is not None:
             heat = heat_inside(mesh.body, mesh.state.displacement, mesh.acting.tractions)
-            self.lost = heat - linear_heat_inside(mesh.flat, linear, tractions)
+            self.extra_heat = heat - linear_heat_inside(mesh.flat, linear, tractions)
         near = np.abs(mesh.flat.strip.ends) < self._near
         made = np.stack(linear_surface(mesh.flat, linear))[:, near]
         made -= moved.linear_displacement(self._linear, arcs)
         return made
 
-    def _solved(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh | None:
+    def _full_or_first_step(
+        self, places: Array, loaded: slice, acting: Acting
+    ) -> _LoadedMesh | None:
         """Return the equilibrium under some tractions, or at first under a share of them.
 
         None where there is none but there was one under the last tractions.
         """
         try:
-            return self._solved_now(places, loaded, acting)
+            return self._equilibrium_under(places, loaded, acting)
         except NoEquilibriumError:
-            return None if self._mesh is not None else self._lightly(places, loaded, acting)
+            return None if self._mesh is not None else self._first_load_step(places, loaded, acting)
 
-    def _lightly(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
+    def _first_load_step(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
         """Return the equilibrium under half of the first tractions, or a quarter, and so on."""
-        while self.share > _LEAST_SHARE:
-            self.share *= 0.5
+        while self.load_fraction > _LEAST_FRACTION:
+            self.load_fraction *= 0.5
             try:
-                return self._solved_now(places, loaded, acting.times(self.share))
+                return self._equilibrium_under(places, loaded, acting.times(self.load_fraction))
             except NoEquilibriumError:
                 continue
         raise NoEquilibriumError
 
-    def _partly(self, acting: Acting) -> _LoadedMesh:
+    def _load_step(self, acting: Acting) -> _LoadedMesh:
         """Return the equilibrium half-way from the last tractions to these, or a quarter, ..."""
         last = self._mesh
         assert last is not None
-        while self.share > _LEAST_SHARE:
-            self.share *= 0.5
-            mixed = last.acting.towards(acting, self.share)
+        while self.load_fraction > _LEAST_FRACTION:
+            self.load_fraction *= 0.5
+            mixed = last.acting.towards(acting, self.load_fraction)
             start = MeshState(last.state.displacement, last.state.pressure)
             try:
                 state = last.body.equilibrium(mixed.tractions, start)
@@ -313,29 +315,29 @@ class FiniteResponse:
             return replace(last, state=state, acting=mixed)
         raise NoEquilibriumError
 
-    def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
+    def _equilibrium_under(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
         """Return the equilibrium under these tractions, on the last mesh if that lies well."""
         last, tractions = self._mesh, acting.tractions
-        stays = self._move_factor * _STAYS * float(np.ptp(places[loaded]))
-        if last is not None and last.is_near(places[loaded], self._speed_now, stays):
-            state = last.body.equilibrium(tractions, last.state, STILL, _SHARE)
+        tolerance = self._move_factor * _SAME_PLACE * float(np.ptp(places[loaded]))
+        if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
+            state = last.body.equilibrium(tractions, last.state, STILL, _STEP_TOLERANCE)
             return replace(last, state=state, acting=acting)
         if last is not None:
-            flat, body, state = self._moved(last, places, loaded)
+            flat, body, state = self._remeshed(last, places, loaded)
         else:
             moved = acting.linear_displacement(self._linear, places[loaded])[0]
-            flat, body = self._on(places, loaded, places[loaded] - moved)
+            flat, body = self._bodies_on(places, loaded, places[loaded] - moved)
             arcs = acting.moved(places[loaded], places[loaded] - moved)
-            state = flat.linear_state(arcs.tractions, self._left)
+            state = flat.linear_state(arcs.tractions, self._gmres_tolerance)
         for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state, STILL, _SHARE)
+            state = body.equilibrium(tractions, state, STILL, _STEP_TOLERANCE)
             mesh = _LoadedMesh(flat, body, state, loaded, acting)
-            if mesh.is_near(places[loaded], None, stays):
+            if mesh.is_near(places[loaded], None, tolerance):
                 break
-            flat, body, state = self._moved(mesh, places, loaded)
+            flat, body, state = self._remeshed(mesh, places, loaded)
         return mesh
 
-    def _moved(
+    def _remeshed(
         self, mesh: _LoadedMesh, places: Array, loaded: slice
     ) -> tuple[Body, Body, MeshState]:
         """Return a mesh whose loaded columns lie at their present places, and the state on it."""
@@ -345,10 +347,10 @@ class FiniteResponse:
         if not front.any():
             raise NoEquilibriumError
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
-        flat, body = self._on(places, loaded, under)
+        flat, body = self._bodies_on(places, loaded, under)
         return flat, body, state.on_columns(strip, body.strip)
 
-    def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
+    def _bodies_on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
         """Return a mesh with loaded columns at the arcs ``under``: for linear theory, and as it is.
 
         Raises `NoEquilibriumError` where arcs do not increase: the surface folds over, or has left
@@ -374,18 +376,18 @@ class _LoadedMesh:
     loaded: slice
     acting: Acting
 
-    def is_near(self, places: Array, speed: float | None, stays: float) -> bool:
-        """Return whether loaded columns lie within ``stays`` of some places, at about the speed."""
+    def is_near(self, places: Array, speed: float | None, tolerance: float) -> bool:
+        """Return whether loaded columns lie at some places, within a tolerance, at that speed."""
         own = self.body.speed
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
         here = deformed_surface(self.body, self.state).x[self.loaded]
         if here.size != places.size:
             return False
-        return float(np.abs(here - places).max()) <= stays
+        return float(np.abs(here - places).max()) <= tolerance
 
 
-def _nothing(nodes: Array) -> tuple[Spline, Spline]:
+def _no_correction(nodes: Array) -> tuple[Spline, Spline]:
     """Return corrections that are zero."""
     flat = Spline.through(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
     return flat, flat

@@ -47,7 +47,7 @@ from rollnip.rolling.contact_stages import (
     restarted,
     solved_next,
 )
-from rollnip.rolling.corrections import AllOrders
+from rollnip.rolling.corrections import PairCorrection
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
 from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.nearby import Nearby
@@ -64,7 +64,7 @@ _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
 # Factors of the cut-off, tried in turn: beside an edge that slips at strains of two and more the
 # iteration may not converge with the first. Which one it needs is not known beforehand; the error
 # of the cut-off is claimed.
-SHARES_KEPT = (1.0, 0.5, 0.25)
+CUT_FACTORS = (1.0, 0.5, 0.25)
 # Largest tolerance of nips with a stiff skin: violations of the contact conditions by 0.007 of the
 # approach have changed the pressure peak beside an edge by a half.
 UNDER_SKINS = 1e-3
@@ -129,9 +129,9 @@ def refine_all_orders(
             return begun
         if stage is Stage.COARSE and start is not kernels:
             start, latest, stage = refined_at_once(nip, model, second(), latest)
-        for share in SHARES_KEPT:
-            orders = AllOrders.of(nip, kernels, half_width, strain, share)
-            found = _iterated(nip, model, (start, latest), orders, stage, is_too_deep)
+        for cut_factor in CUT_FACTORS:
+            correction = PairCorrection.of(nip, kernels, half_width, strain, cut_factor)
+            found = _iterated(nip, model, (start, latest), correction, stage, is_too_deep)
             if not isinstance(found, Ended):
                 return found
             ended = found
@@ -156,8 +156,8 @@ def _from_nearby(
     begun = None if near is None else near.begun(nip, model, kernels, half_width)
     if near is None or begun is None:
         return None
-    orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
-    found = _iterated(nip, model, begun, orders, Stage.REFINED, is_too_deep, is_near=True)
+    correction = PairCorrection.of(nip, kernels, half_width, strain, bodies=near.bodies)
+    found = _iterated(nip, model, begun, correction, Stage.REFINED, is_too_deep, is_near=True)
     return None if isinstance(found, Ended) else found
 
 
@@ -262,7 +262,7 @@ def _iterated(
     nip: Nip,
     model: Model,
     begun: tuple[PairKernels, Round],
-    orders: AllOrders,
+    correction: PairCorrection,
     stage: Stage,
     is_too_deep: IsTooDeep,
     *,
@@ -277,7 +277,7 @@ def _iterated(
     Parameters
     ----------
     begun : influence functions with the first correction, and the contact solved with it.
-    orders : the finite elements.
+    correction : the finite elements.
     stage : of that contact.
     is_near : whether the first correction is that of a similar nip.
     """
@@ -290,14 +290,14 @@ def _iterated(
         try:
             is_far = stage is Stage.COARSE or (iteration == 0 and not is_near)
             roughly = is_far and latest.is_placed
-            made, is_whole = orders.beyond(latest, kernels, roughly=roughly)
+            made, is_full_load = correction.of_contact(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
             break
         iterations = iteration + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        if stage is Stage.REFINED and change < SMALL and is_whole and not roughly:
+        if stage is Stage.REFINED and change < SMALL and is_full_load and not roughly:
             checked = _with_own_correction(nip, model, smooth, latest, change)
             left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
@@ -308,9 +308,9 @@ def _iterated(
         kernels, latest = mixed, _with(latest, mixed)
         to_come = min(change, to_come_after(change, before)) / model.tolerance
         deep = stage is Stage.COARSE and is_too_deep(latest, is_rough=False)
-        if deep and is_whole and to_come <= NEARLY:
+        if deep and is_full_load and to_come <= NEARLY:
             return mixed, latest
-        was, progress = stage, Progress(change, to_come if is_whole and not deep else inf)
+        was, progress = stage, Progress(change, to_come if is_full_load and not deep else inf)
         found, stage = solved_next(nip, model, mixed, latest, stage, progress)
         if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
             restarts += 1

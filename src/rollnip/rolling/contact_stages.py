@@ -22,7 +22,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
-from rollnip.rolling.corrections import share_of_waves
+from rollnip.rolling.corrections import cut_factor_at
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing
@@ -141,7 +141,7 @@ def _holding_second_order(
 
     Waves of the second order beyond the cut-off at the strain of the solution are left out.
     """
-    kept = share_of_waves(surface_strain_in_nip(nip, model.geometry, latest))
+    kept = cut_factor_at(surface_strain_in_nip(nip, model.geometry, latest))
     half_width = 0.5 * latest.figures.nip_width / kept
     upper, lower = (
         None if response is None else response.fitted(half_width)

@@ -21,31 +21,31 @@ from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
-Acting = tuple[Array, Array, Array]
+RollerTractions = tuple[Array, Array, Array]
 """Nodes (N+1,) [mm], and pressure and shear at nodes[1:-1] as they act on a roller [MPa]."""
 _STRAIN = 0.6  # strain of a surface that halves the cut-off
 
 
-def share_of_waves(strain: float) -> float:
+def cut_factor_at(strain: float) -> float:
     """Return the factor of the cut-off at a strain of the surface."""
     return 1.0 / (1.0 + strain / _STRAIN)
 
 
 @dataclass(frozen=True)
-class AllOrders:
+class PairCorrection:
     """The corrections of both rollers of a nip.
 
     Attributes
     ----------
     nip : with both rollers.
     upper, lower : finite elements of either roller; None for a rigid one.
-    share : factor of the cut-off.
+    cut_factor : factor of the cut-off.
     """
 
     nip: Nip
     upper: FiniteResponse | None
     lower: FiniteResponse | None
-    share: float = 1.0
+    cut_factor: float = 1.0
 
     @classmethod
     def of(
@@ -54,15 +54,15 @@ class AllOrders:
         kernels: PairKernels,
         half_width: float,
         strain: float,
-        share: float = 1.0,
+        cut_factor: float = 1.0,
         bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None),
-    ) -> AllOrders:
+    ) -> PairCorrection:
         """Prepare finite elements for a contact of about this half-width [mm] and surface strain.
 
-        ``share``: factor of the cut-off; ``bodies``: equilibria of the upper and the lower roller
-        of a similar nip, to start from.
+        ``cut_factor``: factor of the cut-off; ``bodies``: equilibria of the upper and the lower
+        roller of a similar nip, to start from.
         """
-        cut = CUT * share_of_waves(strain)
+        cut = CUT * cut_factor_at(strain)
 
         def response(
             roller: Roller, surface: SurfaceKernels | None, start: Equilibrium | None
@@ -70,15 +70,15 @@ class AllOrders:
             if surface is None:
                 return None
             linear = surface.displacement
-            return FiniteResponse(roller, half_width, linear, cut, nip.speed, start, share)
+            return FiniteResponse(roller, half_width, linear, cut, nip.speed, start, cut_factor)
 
         upper = response(nip.upper, kernels.upper, bodies[0])
-        return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), share)
+        return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), cut_factor)
 
-    def beyond(
+    def of_contact(
         self, latest: Round, kernels: PairKernels, *, roughly: bool
     ) -> tuple[SecondFields, bool]:
-        """Return the correction under the tractions of a solution without a sheet, see `under`.
+        """Return the correction of a solution without a sheet, see `of_tractions`.
 
         Where friction grips a stiff skin the stretch of both surfaces belongs to it. The correction
         of u_x alone is that of a surface rotated by these tractions; the next ones rotate it
@@ -86,22 +86,24 @@ class AllOrders:
         """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
-        is_parted = len(latest.zones) > 1
-        made, is_whole = self.under(
-            sides, latest.state.creepage, roughly=roughly, is_parted=is_parted
+        has_several_zones = len(latest.zones) > 1
+        correction, is_full_load = self.of_tractions(
+            sides, latest.state.creepage, roughly=roughly, has_several_zones=has_several_zones
         )
         if not grips_skin(self.nip):
-            return made, is_whole
-        upper, lower = (_stretch_beyond(self.nip, kernels, side, made, latest) for side in (0, 1))
-        return replace(made, stretch=(upper, lower)), is_whole
+            return correction, is_full_load
+        upper, lower = (
+            _stretch_beyond(self.nip, kernels, side, correction, latest) for side in (0, 1)
+        )
+        return replace(correction, stretch=(upper, lower)), is_full_load
 
-    def under(
+    def of_tractions(
         self,
-        sides: tuple[Acting, Acting],
+        sides: tuple[RollerTractions, RollerTractions],
         creepage: float,
         *,
         roughly: bool,
-        is_parted: bool = False,
+        has_several_zones: bool = False,
     ) -> tuple[SecondFields, bool]:
         """Return the correction under given tractions of both rollers.
 
@@ -109,8 +111,8 @@ class AllOrders:
         ----------
         sides : tractions of the upper and of the lower roller.
         creepage : of the upper roller against the lower one.
-        roughly : whether tractions are far from their solution, see `FiniteResponse.displacement`.
-        is_parted : whether the contact has zones of stick and of slip.
+        roughly : whether tractions are far from their solution, see `FiniteResponse.correction`.
+        has_several_zones : whether the contact has zones of stick and of slip.
 
         Returns
         -------
@@ -123,21 +125,21 @@ class AllOrders:
         """
         functions: list[Field | None] = []
         rough: list[Field | None] = []
-        lost, is_whole = [0.0, 0.0], True
+        lost, is_full_load = [0.0, 0.0], True
         rates, rollers = rates_of("finite", creepage), (self.nip.upper, self.nip.lower)
         for side, response in enumerate((self.upper, self.lower)):
             if response is None:
                 functions += [None, None]
                 rough += [None, None]
                 continue
-            functions += response.displacement(
-                *sides[side], rates[side], roughly=roughly, is_parted=is_parted
+            functions += response.correction(
+                *sides[side], rates[side], roughly=roughly, has_several_zones=has_several_zones
             )
             rough += response.rough
-            lost[side] = response.lost
+            lost[side] = response.extra_heat
             if not roughly:
-                lost[side] += _lost_aside(rollers[side], self.nip.speed, response, sides[side])
-            is_whole = is_whole and response.share == 1.0
+                lost[side] += _heat_by_arcs(rollers[side], self.nip.speed, response, sides[side])
+            is_full_load = is_full_load and response.load_fraction == 1.0
             if not response.is_found:
                 raise NoEquilibriumError
         smooth = SecondFields(
@@ -145,26 +147,26 @@ class AllOrders:
             lost=(lost[0], lost[1]),
             rough=tuple(rough),
             bodies=(_equilibrium(self.upper), _equilibrium(self.lower)),
-            share=self.share,
+            share=self.cut_factor,
         )
-        return smooth, is_whole
+        return smooth, is_full_load
 
 
 def _stretch_beyond(
-    nip: Nip, kernels: PairKernels, side: int, made: SecondFields, latest: Round
+    nip: Nip, kernels: PairKernels, side: int, correction: SecondFields, latest: Round
 ) -> Stretch:
     """Return the stretch of a surface beyond the linear one under the tractions of a contact.
 
     It is the stretch by linear displacements and correction together, less that of linear theory,
     integrated along the surface and interpolated by a spline between the ends of columns.
     """
-    columns = made.rough[2 * side]
+    columns = correction.rough[2 * side]
     if not isinstance(columns, Spline):
         return Stretch()
     x = np.union1d(columns.x, latest.nodes)
     flat = latest.mesh.linear_displacements_at(x, latest.state)
     hoops = np.array(kernels.hoops)[:, None]
-    beyond = stretch_excess(x, nip, "finite", flat + made.at(x))
+    beyond = stretch_excess(x, nip, "finite", flat + correction.at(x))
     beyond -= linear_stretch(x[1:] - x[:-1], hoops, *flat.rows)
     total = np.append(0.0, np.cumsum(beyond[side]))[np.searchsorted(x, columns.x)]
     return Stretch(((1.0, Spline.through(columns.x, total)),))
@@ -174,18 +176,18 @@ def _equilibrium(response: FiniteResponse | None) -> Equilibrium | None:
     return None if response is None else response.equilibrium
 
 
-def _lost_aside(
-    roller: Roller, speed: float | None, response: FiniteResponse, acting: Acting
+def _heat_by_arcs(
+    roller: Roller, speed: float | None, response: FiniteResponse, present: RollerTractions
 ) -> float:
     """Return by how much linear theory's heat is larger with the tractions at arcs of the material.
 
     Finite elements give the heat beyond that; the heat beyond linear theory with the tractions at
     their present places is the sum.
     """
-    if not roller.is_viscoelastic or response.moved is None:
+    if not roller.is_viscoelastic or response.arc_tractions is None:
         return 0.0
     linear = []
-    for nodes, pressure, shear in (response.moved.parts[-1][1:], acting):
+    for nodes, pressure, shear in (response.arc_tractions.parts[-1][1:], present):
         tractions = SurfaceTractions.on_inner(nodes, shear, pressure)
         linear.append(loss_per_distance(roller, tractions, "finite", speed))
     return linear[0] - linear[1]

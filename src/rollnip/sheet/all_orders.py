@@ -18,8 +18,8 @@ from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.all_orders import (
+    CUT_FACTORS,
     MOST_CORRECTIONS,
-    SHARES_KEPT,
     SMALL,
     UNDER_SKINS,
     Least,
@@ -30,7 +30,7 @@ from rollnip.rolling.all_orders import (
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.contact_stages import NEARLY, coarsely
-from rollnip.rolling.corrections import Acting, AllOrders
+from rollnip.rolling.corrections import PairCorrection, RollerTractions
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.kind import CLOSELY, ROUGHLY, S, SheetKind
@@ -64,10 +64,12 @@ def solve_by_iteration(
         attempt = _begun(kind, coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
-    for share in SHARES_KEPT:
-        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(attempt), share)
+    for cut_factor in CUT_FACTORS:
+        correction = PairCorrection.of(
+            kind.nip, kernels, half_width, _largest_strain(attempt), cut_factor
+        )
         try:
-            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), orders)
+            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), correction)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -132,7 +134,7 @@ class _Contact(Generic[S]):
 
 
 def _iterate_until_settled(
-    kernels: PairKernels, contact: _Contact[S], orders: AllOrders
+    kernels: PairKernels, contact: _Contact[S], correction: PairCorrection
 ) -> tuple[PairKernels, Refined[S]] | None:
     """Iterate, see `solve_by_iteration`."""
     kind, tolerance, change = contact.kind, contact.model.tolerance, inf
@@ -141,19 +143,21 @@ def _iterate_until_settled(
     for _ in range(MOST_CORRECTIONS):
         attempt, refined = contact.attempt, contact.refined
         creepage = sum(attempt.state.creepages)
-        made, is_whole = orders.under(_sides(attempt), creepage, roughly=change == inf)
+        made, is_full_load = correction.of_tractions(
+            _sides(attempt), creepage, roughly=change == inf
+        )
         smooth = replace(kernels, held=made)
         own = kind.holding(attempt, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
-        if refined is not None and change < SMALL and is_whole:
+        if refined is not None and change < SMALL and is_full_load:
             missed = kind.missed(attempt, own)
             found = on_last_mesh(kind, refined, own, smooth, missed)
             if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
                 break
         kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
-        begins = refined is None and is_whole and near <= NEARLY
+        begins = refined is None and is_full_load and near <= NEARLY
         if begins:
             past = Past(places_by_the_edges(_edges(attempt)))
         contact.solve(kernels, refine=begins)
@@ -174,9 +178,9 @@ def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
     return replace(refined, cut=cut, cut_losses=losses)
 
 
-def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
+def _sides(attempt: AnyAttempt) -> tuple[RollerTractions, RollerTractions]:
     """Return the tractions of the upper and of the lower roller."""
-    out: list[Acting] = []
+    out: list[RollerTractions] = []
     for number, (mesh, sign) in enumerate(zip(attempt.problem.meshes, (1.0, -1.0), strict=True)):
         one = attempt.state.side(number)
         out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))

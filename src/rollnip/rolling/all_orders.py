@@ -56,10 +56,10 @@ from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
-_DEPTH = 5  # corrections that Anderson acceleration combines
-_COMPARED = 65  # places at which they are compared
+_ANDERSON_DEPTH = 5  # corrections that Anderson acceleration combines
+_PLACES_COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # iterations with one cut-off
-SMALL = 0.05  # change of the correction in an iteration below which that may be the last one
+SMALL_CHANGE = 0.05  # change of the correction in an iteration below which that may be the last one
 _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
 # Factors of the cut-off, tried in turn: beside an edge that slips at strains of two and more the
 # iteration may not converge with the first. Which one it needs is not known beforehand; the error
@@ -67,7 +67,7 @@ _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
 CUT_FACTORS = (1.0, 0.5, 0.25)
 # Largest tolerance of nips with a stiff skin: violations of the contact conditions by 0.007 of the
 # approach have changed the pressure peak beside an edge by a half.
-UNDER_SKINS = 1e-3
+SKIN_TOLERANCE = 1e-3
 
 
 def with_second_order(
@@ -112,7 +112,7 @@ def refine_all_orders(
     does not converge, that solution is not ``settled``, and ``ended`` says how far it got.
     """
     if skin_thickness(nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
+        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
     if grips_skin(nip):
         kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
     second = partial(with_second_order, kernels, nip, "second", half_width, cache)
@@ -124,14 +124,14 @@ def refine_all_orders(
         ended = Ended("depth", 0, inf)
     elif latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
-        begun = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
-        if begun is not None:
-            return begun
+        found_nearby = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
+        if found_nearby is not None:
+            return found_nearby
         if stage is Stage.COARSE and start is not kernels:
             start, latest, stage = refined_at_once(nip, model, second(), latest)
         for cut_factor in CUT_FACTORS:
             correction = PairCorrection.of(nip, kernels, half_width, strain, cut_factor)
-            found = _iterated(nip, model, (start, latest), correction, stage, is_too_deep)
+            found = _iterate(nip, model, (start, latest), correction, stage, is_too_deep)
             if not isinstance(found, Ended):
                 return found
             ended = found
@@ -153,16 +153,16 @@ def _from_nearby(
     ``sizes``: half-width of the contact [mm] and strain of its surface.
     """
     half_width, strain = sizes
-    begun = None if near is None else near.begun(nip, model, kernels, half_width)
-    if near is None or begun is None:
+    start = None if near is None else near.begun(nip, model, kernels, half_width)
+    if near is None or start is None:
         return None
     correction = PairCorrection.of(nip, kernels, half_width, strain, bodies=near.bodies)
-    found = _iterated(nip, model, begun, correction, Stage.REFINED, is_too_deep, is_near=True)
+    found = _iterate(nip, model, start, correction, Stage.REFINED, is_too_deep, is_near=True)
     return None if isinstance(found, Ended) else found
 
 
 @dataclass
-class Past:
+class AndersonMixer:
     """Anderson acceleration of the corrections (Anderson 1965, J. ACM 12, 547-560).
 
     Of the last iterations it keeps the correction that the solution led to and its difference from
@@ -172,50 +172,52 @@ class Past:
     Attributes
     ----------
     x : (n,) places at which corrections are compared [mm].
-    made : the last corrections that solutions led to, oldest first.
-    distances : (4 n,) the differences of each at ``x``.
+    results : the last corrections that solutions led to, oldest first.
+    residuals : (4 n,) the differences of each at ``x``.
     """
 
     x: Array
-    made: list[SecondFields] = field(default_factory=list)
-    distances: list[Array] = field(default_factory=list)
+    results: list[SecondFields] = field(default_factory=list)
+    residuals: list[Array] = field(default_factory=list)
 
-    def next(self, held: SecondFields, made: SecondFields) -> SecondFields:
+    def mixed(self, held: SecondFields, new: SecondFields) -> SecondFields:
         """Return the correction to solve with next.
 
-        ``held``: the one that the last contact was solved with; ``made``: the one that its solution
+        ``held``: the one that the last contact was solved with; ``new``: the one that its solution
         led to.
         """
-        distance = (made.at(self.x).four - held.at(self.x).four).ravel()
-        self.made = [*self.made, made][-_DEPTH:]
-        self.distances = [*self.distances, distance][-_DEPTH:]
-        if len(self.made) == 1:
-            return made
-        steps = np.diff(np.array(self.distances), axis=0)
-        back = np.linalg.lstsq(steps.T, distance, rcond=1e-3)[0]
-        return _mean(np.append(back, 1.0) - np.append(0.0, back), self.made)
+        residual = (new.at(self.x).four - held.at(self.x).four).ravel()
+        self.results = [*self.results, new][-_ANDERSON_DEPTH:]
+        self.residuals = [*self.residuals, residual][-_ANDERSON_DEPTH:]
+        if len(self.results) == 1:
+            return new
+        steps = np.diff(np.array(self.residuals), axis=0)
+        back = np.linalg.lstsq(steps.T, residual, rcond=1e-3)[0]
+        return _weighted_sum(np.append(back, 1.0) - np.append(0.0, back), self.results)
 
 
-def _mean(shares: Array, fields: Sequence[SecondFields]) -> SecondFields:
-    """Return the sum of corrections with the weights ``shares``."""
+def _weighted_sum(weights: Array, fields: Sequence[SecondFields]) -> SecondFields:
+    """Return a weighted sum of corrections."""
     functions: list[Field | None] = []
     for several in zip(*(one.functions for one in fields), strict=True):
         splines = [f for f in several if isinstance(f, Spline)]
-        functions.append(Spline.mean(shares, splines) if splines else None)
+        functions.append(Spline.mean(weights, splines) if splines else None)
     rough: list[Field | None] = []
     for several in zip(*(one.rough for one in fields), strict=True):
         given = tuple(f for f in several if f is not None)
-        rough.append(WeightedSum(tuple(shares.tolist()), given) if given else None)
-    lost = shares @ np.array([one.lost for one in fields])
+        rough.append(WeightedSum(tuple(weights.tolist()), given) if given else None)
+    lost = weights @ np.array([one.lost for one in fields])
     both = float(lost[0]), float(lost[1])
-    stretch = _mean_stretch(shares, fields)
+    stretch = _weighted_stretch(weights, fields)
     return SecondFields(tuple(functions), lost=both, rough=tuple(rough), stretch=stretch)
 
 
-def _mean_stretch(shares: Array, fields: Sequence[SecondFields]) -> tuple[Stretch, Stretch] | None:
+def _weighted_stretch(
+    weights: Array, fields: Sequence[SecondFields]
+) -> tuple[Stretch, Stretch] | None:
     upper: list[tuple[float, Spline]] = []
     lower: list[tuple[float, Spline]] = []
-    for share, one in zip(shares.tolist(), fields, strict=True):
+    for share, one in zip(weights.tolist(), fields, strict=True):
         if one.stretch is None:
             return None
         for parts, surface in zip((upper, lower), one.stretch, strict=True):
@@ -227,19 +229,19 @@ Found = TypeVar("Found")
 
 
 @dataclass
-class Least(Generic[Found]):
+class BestSolution(Generic[Found]):
     """The best solution so far: it violates the contact conditions least under its own correction.
 
     Attributes
     ----------
     found : that solution; None as long as all violate the conditions by more than the tolerance.
-    left : violation by the last solution, over the tolerance.
+    violation : that by the last solution, over the tolerance.
     """
 
     found: Found | None = None
-    left: float = inf
+    violation: float = inf
 
-    def is_enough(self, found: Found, left: float, to_come: float, cut: float = 0.0) -> bool:
+    def may_stop(self, found: Found, violation: float, to_come: float, cut: float = 0.0) -> bool:
         """Compare a further solution; return whether the iteration may stop with the best one.
 
         It may when the violation or the changes to come are small, or the violation grew again.
@@ -247,21 +249,21 @@ class Least(Generic[Found]):
         Parameters
         ----------
         found : the solution.
-        left : its violation of the contact conditions, over the tolerance.
-        to_come : sum of the changes to come of its correction, over the tolerance.
+        violation : its violation of the contact conditions, over the tolerance.
+        to_come : last change of its correction, or sum of those to come, over the tolerance.
         cut : violation on account of the cut-off, over the tolerance.
         """
-        before, self.left = self.left, left
-        if left <= min(1.0, before):
+        before, self.violation = self.violation, violation
+        if violation <= min(1.0, before):
             self.found = found
         enough = ENOUGH * max(1.0, cut)
-        return self.found is not None and (min(left, to_come) <= enough or left > before)
+        return self.found is not None and (min(violation, to_come) <= enough or violation > before)
 
 
-def _iterated(
+def _iterate(
     nip: Nip,
     model: Model,
-    begun: tuple[PairKernels, Round],
+    start: tuple[PairKernels, Round],
     correction: PairCorrection,
     stage: Stage,
     is_too_deep: IsTooDeep,
@@ -276,53 +278,53 @@ def _iterated(
 
     Parameters
     ----------
-    begun : influence functions with the first correction, and the contact solved with it.
+    start : influence functions with the first correction, and the contact solved with it.
     correction : the finite elements.
     stage : of that contact.
     is_near : whether the first correction is that of a similar nip.
     """
-    kernels, latest = begun
-    change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
-    least = Least[tuple[PairKernels, Round]]()
+    kernels, latest = start
+    change, restarts, mixer = inf, 0, AndersonMixer(places_by_the_edges(_edges(latest)))
+    best = BestSolution[tuple[PairKernels, Round]]()
     iterations = 0
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
             is_far = stage is Stage.COARSE or (iteration == 0 and not is_near)
             roughly = is_far and latest.is_placed
-            made, is_full_load = correction.of_contact(latest, kernels, roughly=roughly)
+            new, is_full_load = correction.of_contact(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
             break
         iterations = iteration + 1
-        smooth = replace(kernels, held=made)
-        before, change = change, _change(nip, model, smooth, latest)
-        if stage is Stage.REFINED and change < SMALL and is_full_load and not roughly:
-            checked = _with_own_correction(nip, model, smooth, latest, change)
-            left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
-            if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
+        updated = replace(kernels, held=new)
+        before, change = change, _change_of_terms(nip, model, updated, latest)
+        if stage is Stage.REFINED and change < SMALL_CHANGE and is_full_load and not roughly:
+            checked = _with_own_correction(nip, model, updated, latest, change)
+            violation, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
+            if best.may_stop((updated, checked), violation, change / model.tolerance, cut):
                 break
             if iteration == 0:  # with the correction of a similar nip: no measure for later ones
-                least = Least()
-        mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
-        kernels, latest = mixed, _with(latest, mixed)
+                best = BestSolution()
+        accelerated = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, new))
+        kernels, latest = accelerated, _holding(latest, accelerated)
         to_come = min(change, to_come_after(change, before)) / model.tolerance
         deep = stage is Stage.COARSE and is_too_deep(latest, is_rough=False)
         if deep and is_full_load and to_come <= NEARLY:
-            return mixed, latest
+            return accelerated, latest
         was, progress = stage, Progress(change, to_come if is_full_load and not deep else inf)
-        found, stage = solved_next(nip, model, mixed, latest, stage, progress)
+        found, stage = solved_next(nip, model, accelerated, latest, stage, progress)
         if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
             restarts += 1
-            kernels, found, stage = restarted(nip, model, (mixed, smooth), latest)
+            kernels, found, stage = restarted(nip, model, (accelerated, updated), latest)
         if not found.settled:
             cause = "contact"
             break
-        past = past if stage is was else Past(places_by_the_edges(_edges(latest)))
+        mixer = mixer if stage is was else AndersonMixer(places_by_the_edges(_edges(latest)))
         latest = found
-    if least.found is None:
+    if best.found is None:
         return Ended(cause, iterations, change)
-    return least.found
+    return best.found
 
 
 def _edges(latest: Round) -> tuple[float, float]:
@@ -334,13 +336,13 @@ def even_places(edges: tuple[float, float]) -> Array:
 
     With dense places beside the edges, short waves there would hide what converges slowly.
     """
-    return np.linspace(*edges, _COMPARED)
+    return np.linspace(*edges, _PLACES_COMPARED)
 
 
 def places_by_the_edges(edges: tuple[float, float]) -> Array:
     """Return places that are dense beside the edges, where corrections converge last."""
     start, stop = edges
-    shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _COMPARED))
+    shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _PLACES_COMPARED))
     return np.asarray(start + (stop - start) * shares)
 
 
@@ -355,26 +357,26 @@ def _with_own_correction(
     """
     assert kernels.held is not None
     own = replace(kernels, held=replace(kernels.held, stretch=None))
-    checked = with_residual(nip, model, own, _with(latest, own))
+    checked = with_residual(nip, model, own, _holding(latest, own))
     change = largest(change, latest.geometry_change)
     checked = replace(checked, geometry_change=change, settled=True)
     if not checked.residual <= model.tolerance:
         return checked
     uncut = replace(own, held=replace(kernels.held.uncut, stretch=None))
-    cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
+    cut = with_residual(nip, model, uncut, _holding(checked, uncut)).residual
     return replace(checked, cut=cut)
 
 
-def _with(latest: Round, kernels: PairKernels) -> Round:
+def _holding(latest: Round, kernels: PairKernels) -> Round:
     """Return a solution whose mesh holds the correction of some influence functions."""
     return replace(latest, mesh=latest.mesh.holding(kernels))
 
 
-def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
+def _change_of_terms(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
     """Return by how much another correction changes the finite-strain terms of a solution.
 
     Relative to its first-order terms.
     """
-    mesh = _with(latest, kernels).mesh
+    mesh = _holding(latest, kernels).mesh
     own = second_order(nip, model.geometry, mesh, latest.state)
     return change_of(own, latest.second, mesh, nip, latest.state)

@@ -20,10 +20,10 @@ from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.all_orders import (
     CUT_FACTORS,
     MOST_CORRECTIONS,
-    SMALL,
-    UNDER_SKINS,
-    Least,
-    Past,
+    SKIN_TOLERANCE,
+    SMALL_CHANGE,
+    AndersonMixer,
+    BestSolution,
     even_places,
     places_by_the_edges,
 )
@@ -59,7 +59,7 @@ def solve_by_iteration(
     is no equilibrium, or zones or corrections do not settle.
     """
     if skin_thickness(kind.nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
+        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
     try:
         attempt = _begun(kind, coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
@@ -138,8 +138,8 @@ def _iterate_until_settled(
 ) -> tuple[PairKernels, Refined[S]] | None:
     """Iterate, see `solve_by_iteration`."""
     kind, tolerance, change = contact.kind, contact.model.tolerance, inf
-    past = Past(even_places(_edges(contact.attempt)))
-    least = Least[tuple[PairKernels, Refined[S], S]]()
+    mixer = AndersonMixer(even_places(_edges(contact.attempt)))
+    best = BestSolution[tuple[PairKernels, Refined[S], S]]()
     for _ in range(MOST_CORRECTIONS):
         attempt, refined = contact.attempt, contact.refined
         creepage = sum(attempt.state.creepages)
@@ -150,22 +150,22 @@ def _iterate_until_settled(
         own = kind.holding(attempt, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
-        if refined is not None and change < SMALL and is_full_load:
+        if refined is not None and change < SMALL_CHANGE and is_full_load:
             missed = kind.missed(attempt, own)
             found = on_last_mesh(kind, refined, own, smooth, missed)
-            if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
+            if best.may_stop((smooth, found, own), found.residual / tolerance, to_come):
                 break
-        kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
+        kernels = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
         begins = refined is None and is_full_load and near <= NEARLY
         if begins:
-            past = Past(places_by_the_edges(_edges(attempt)))
+            mixer = AndersonMixer(places_by_the_edges(_edges(attempt)))
         contact.solve(kernels, refine=begins)
         if not contact.attempt.settled and contact.refined is not None:
             break
-    if least.found is None:
+    if best.found is None:
         return None
-    kernels, found, own = least.found
+    kernels, found, own = best.found
     assert kernels.held is not None
     uncut = kind.holding(own, replace(kernels, held=kernels.held.uncut))
     return kernels, _with_cut(found, kind.missed(own, uncut))

@@ -67,11 +67,11 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
 
     def refused(nip, model, kernels, half_width):
         held_by.append(kernels.held)
-        return kernels, SimpleNamespace(settled=False), contact_stages.Stage.COARSE
+        return kernels, SimpleNamespace(settled=False), contact_stages.ContactStage.COARSE
 
-    monkeypatch.setattr(contact_stages, "begin", refused)
+    monkeypatch.setattr(contact_stages, "first_contact", refused)
     latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))
     mean, last = (SimpleNamespace(held=object()) for _ in range(2))
     for both in ((last, last), (mean, last)):
-        contact_stages.restarted(None, None, both, latest)
+        contact_stages.restart(None, None, both, latest)
     assert held_by == [last.held, mean.held, last.held]

@@ -265,7 +265,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     """
     found = []
     for enough in (1.0, 0.03):
-        monkeypatch.setattr(all_orders, "ENOUGH", enough)
+        monkeypatch.setattr(all_orders, "CONVERGED", enough)
         found.append(rn.solve(figure_4(0.31)))
     rough, fine = found
     assert rough.final.residual > 5e-4 > 5.0 * fine.final.residual

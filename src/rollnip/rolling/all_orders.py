@@ -38,14 +38,14 @@ from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.contact_stages import (
-    ENOUGH,
-    NEARLY,
-    Progress,
-    Stage,
-    begin,
-    refined_at_once,
-    restarted,
-    solved_next,
+    CONVERGED,
+    NEARLY_CONVERGED,
+    ContactStage,
+    Convergence,
+    first_contact,
+    next_contact,
+    refined_with_second_order,
+    restart,
 )
 from rollnip.rolling.corrections import PairCorrection
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
@@ -116,7 +116,7 @@ def refine_all_orders(
     if grips_skin(nip):
         kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
     second = partial(with_second_order, kernels, nip, "second", half_width, cache)
-    start, latest, stage = begin(
+    start, latest, stage = first_contact(
         nip, model, kernels, half_width, None if grips_skin(nip) else second, is_too_deep
     )
     ended: Ended | None = None
@@ -127,8 +127,8 @@ def refine_all_orders(
         found_nearby = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
         if found_nearby is not None:
             return found_nearby
-        if stage is Stage.COARSE and start is not kernels:
-            start, latest, stage = refined_at_once(nip, model, second(), latest)
+        if stage is ContactStage.COARSE and start is not kernels:
+            start, latest, stage = refined_with_second_order(nip, model, second(), latest)
         for cut_factor in CUT_FACTORS:
             correction = PairCorrection.of(nip, kernels, half_width, strain, cut_factor)
             found = _iterate(nip, model, (start, latest), correction, stage, is_too_deep)
@@ -157,7 +157,7 @@ def _from_nearby(
     if near is None or start is None:
         return None
     correction = PairCorrection.of(nip, kernels, half_width, strain, bodies=near.bodies)
-    found = _iterate(nip, model, start, correction, Stage.REFINED, is_too_deep, is_near=True)
+    found = _iterate(nip, model, start, correction, ContactStage.REFINED, is_too_deep, is_near=True)
     return None if isinstance(found, Ended) else found
 
 
@@ -256,7 +256,7 @@ class BestSolution(Generic[Found]):
         before, self.violation = self.violation, violation
         if violation <= min(1.0, before):
             self.found = found
-        enough = ENOUGH * max(1.0, cut)
+        enough = CONVERGED * max(1.0, cut)
         return self.found is not None and (min(violation, to_come) <= enough or violation > before)
 
 
@@ -265,7 +265,7 @@ def _iterate(
     model: Model,
     start: tuple[PairKernels, Round],
     correction: PairCorrection,
-    stage: Stage,
+    stage: ContactStage,
     is_too_deep: IsTooDeep,
     *,
     is_near: bool = False,
@@ -290,7 +290,7 @@ def _iterate(
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
-            is_far = stage is Stage.COARSE or (iteration == 0 and not is_near)
+            is_far = stage is ContactStage.COARSE or (iteration == 0 and not is_near)
             roughly = is_far and latest.is_placed
             new, is_full_load = correction.of_contact(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
@@ -299,7 +299,7 @@ def _iterate(
         iterations = iteration + 1
         updated = replace(kernels, held=new)
         before, change = change, _change_of_terms(nip, model, updated, latest)
-        if stage is Stage.REFINED and change < SMALL_CHANGE and is_full_load and not roughly:
+        if stage is ContactStage.REFINED and change < SMALL_CHANGE and is_full_load and not roughly:
             checked = _with_own_correction(nip, model, updated, latest, change)
             violation, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if best.may_stop((updated, checked), violation, change / model.tolerance, cut):
@@ -309,14 +309,14 @@ def _iterate(
         accelerated = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, new))
         kernels, latest = accelerated, _holding(latest, accelerated)
         to_come = min(change, to_come_after(change, before)) / model.tolerance
-        deep = stage is Stage.COARSE and is_too_deep(latest, is_rough=False)
-        if deep and is_full_load and to_come <= NEARLY:
+        deep = stage is ContactStage.COARSE and is_too_deep(latest, is_rough=False)
+        if deep and is_full_load and to_come <= NEARLY_CONVERGED:
             return accelerated, latest
-        was, progress = stage, Progress(change, to_come if is_full_load and not deep else inf)
-        found, stage = solved_next(nip, model, accelerated, latest, stage, progress)
-        if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
+        was, convergence = stage, Convergence(change, to_come if is_full_load and not deep else inf)
+        found, stage = next_contact(nip, model, accelerated, latest, stage, convergence)
+        if not found.settled and stage is not ContactStage.FINE and restarts < _MOST_RESTARTS:
             restarts += 1
-            kernels, found, stage = restarted(nip, model, (accelerated, updated), latest)
+            kernels, found, stage = restart(nip, model, (accelerated, updated), latest)
         if not found.settled:
             cause = "contact"
             break

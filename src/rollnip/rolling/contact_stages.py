@@ -42,18 +42,18 @@ from rollnip.rolling.surfaces import PairKernels
 # Violation of the contact conditions, or change of the correction, below which the iteration may
 # end: over the tolerance or, if that is larger, over the violation on account of the cut-off, which
 # is claimed anyway.
-ENOUGH = 0.3
-_COARSE = 24  # elements of a coarse contact
-NEARLY = 6.0  # change, over the tolerance, below which a contact found node by node is refined
+CONVERGED = 0.3
+_COARSE_ELEMENTS = 24  # elements of a coarse contact
+NEARLY_CONVERGED = 6.0  # change over the tolerance below which contacts by nodes are refined
 # Tolerance of coarse contacts; also about how far a correction moves ends of zones, over the width.
-_COARSELY = 1e-2
+_COARSE_TOLERANCE = 1e-2
 
 
-Responses = Callable[[], PairKernels]
+SecondOrderKernels = Callable[[], PairKernels]
 """A function that returns influence functions with responses of second order."""
 
 
-class Stage(IntEnum):
+class ContactStage(IntEnum):
     """How accurately the contact is solved that a correction is evaluated from."""
 
     COARSE = 0  # few elements, with free ends or node by node
@@ -62,7 +62,7 @@ class Stage(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Progress:
+class Convergence:
     """How far the correction has converged.
 
     Attributes
@@ -76,14 +76,14 @@ class Progress:
     to_come: float
 
 
-def begin(
+def first_contact(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
     half_width: float,
-    second: Responses | None = None,
+    second: SecondOrderKernels | None = None,
     is_too_deep: IsTooDeep | None = None,
-) -> tuple[PairKernels, Round, Stage]:
+) -> tuple[PairKernels, Round, ContactStage]:
     """Return the first contact of an iteration, the influence functions it has, and its stage.
 
     It is found node by node and then given free ends on a coarse mesh or, where that fails on all
@@ -95,33 +95,33 @@ def begin(
     tractions found node by node. Elastic nips of a single zone do without the second order: one
     iteration leaves so little of the error of the correction that it saves none.
     """
-    coarse_model = coarsely(model)
-    sizes = by_nodes(nip, coarse_model, kernels, half_width, COARSE_SIZES)
+    coarse = coarse_model(model)
+    sizes = by_nodes(nip, coarse, kernels, half_width, COARSE_SIZES)
     if grips_skin(nip):
         *_, located = sizes
-        return kernels, located, Stage.COARSE
+        return kernels, located, ContactStage.COARSE
     for located in sizes:
         layout = Layout.of(located.zones) if located.settled else None
         if layout is not None and is_too_deep is not None and is_too_deep(located, is_rough=True):
-            return kernels, located, Stage.COARSE
+            return kernels, located, ContactStage.COARSE
         if layout is not None:
             held, before = kernels, located
             if second is not None and (nip.is_viscoelastic or layout.states.size > 1):
                 held, before = _holding_second_order(nip, model, second(), located)
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = Placing(nip, coarse_model, held).placed(start, _COARSE, known=False)
+                found = Placing(nip, coarse, held).placed(start, _COARSE_ELEMENTS, known=False)
                 if found is not None:
-                    return held, found.before, Stage.COARSE
+                    return held, found.before, ContactStage.COARSE
     refined = placed(nip, model, kernels, located) if located.settled else None
     if is_verified(refined, model):
-        return kernels, refined, Stage.REFINED
-    return kernels, located, Stage.COARSE
+        return kernels, refined, ContactStage.REFINED
+    return kernels, located, ContactStage.COARSE
 
 
-def refined_at_once(
+def refined_with_second_order(
     nip: Nip, model: Model, second: PairKernels, coarse: Round
-) -> tuple[PairKernels, Round, Stage]:
+) -> tuple[PairKernels, Round, ContactStage]:
     """Return a refined contact with the second order of a coarse one held.
 
     With its influence functions and its stage. Where free ends are not found on finer meshes it is
@@ -130,8 +130,8 @@ def refined_at_once(
     held, before = _holding_second_order(nip, model, second, coarse)
     refined = _with_free_ends(nip, model, held, before)
     if refined is None:
-        return held, before, Stage.COARSE
-    return held, refined, Stage.REFINED
+        return held, before, ContactStage.COARSE
+    return held, refined, ContactStage.REFINED
 
 
 def _holding_second_order(
@@ -153,51 +153,56 @@ def _holding_second_order(
     return kernels, replace(latest, mesh=latest.mesh.holding(kernels))
 
 
-def solved_next(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, progress: Progress
-) -> tuple[Round, Stage]:
+def next_contact(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    latest: Round,
+    stage: ContactStage,
+    convergence: Convergence,
+) -> tuple[Round, ContactStage]:
     """Solve with the next correction, on a better mesh if the correction has converged that far.
 
     Where there is no solution, the round returned is not ``settled``. Only a coarse contact found
     node by node goes on as it is if the better mesh fails, until the correction has converged more.
     """
-    if progress.to_come <= _enough_for_better(model, latest, stage):
-        found, better = _better(nip, model, kernels, latest, stage)
-        if found.settled or latest.is_placed or stage is not Stage.COARSE:
-            return found, better
-    return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
+    if convergence.to_come <= _change_for_better_stage(model, latest, stage):
+        found, next_stage = _at_better_stage(nip, model, kernels, latest, stage)
+        if found.settled or latest.is_placed or stage is not ContactStage.COARSE:
+            return found, next_stage
+    return _at_same_stage(nip, model, kernels, latest, stage, convergence.change), stage
 
 
-def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
+def _change_for_better_stage(model: Model, latest: Round, stage: ContactStage) -> float:
     """Return the change of the correction, over the tolerance, below which a better mesh pays."""
-    if stage is Stage.REFINED:
+    if stage is ContactStage.REFINED:
         return -inf
-    if stage is Stage.FINE:
-        return ENOUGH
+    if stage is ContactStage.FINE:
+        return CONVERGED
     if not latest.is_placed:
-        return NEARLY
+        return NEARLY_CONVERGED
     return 1.0 / model.tolerance  # it changes by less than the first-order terms themselves
 
 
-def _better(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage
-) -> tuple[Round, Stage]:
+def _at_better_stage(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: ContactStage
+) -> tuple[Round, ContactStage]:
     """Solve on the meshes of a better stage, with a correction that has nearly converged."""
     if latest.is_placed:
         found = _refined(nip, model, kernels, latest)
-        return found, Stage.REFINED if found.is_placed else Stage.FINE
-    ready = placed(nip, model, kernels, latest) if stage is Stage.FINE else None
+        return found, ContactStage.REFINED if found.is_placed else ContactStage.FINE
+    ready = placed(nip, model, kernels, latest) if stage is ContactStage.FINE else None
     if ready is not None and excess(nip, ready, model.tolerance) <= 1.0:
-        return ready, Stage.REFINED
+        return ready, ContactStage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)
     if finer is None and ready is not None:
-        return ready, Stage.REFINED  # its errors stay too large, and are reported
-    return finer or replace(latest, settled=False), Stage.FINE
+        return ready, ContactStage.REFINED  # its errors stay too large, and are reported
+    return finer or replace(latest, settled=False), ContactStage.FINE
 
 
-def coarsely(model: Model) -> Model:
+def coarse_model(model: Model) -> Model:
     """Return the model with the tolerance of a coarse contact."""
-    return replace(model, tolerance=max(model.tolerance, _COARSELY))
+    return replace(model, tolerance=max(model.tolerance, _COARSE_TOLERANCE))
 
 
 def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
@@ -211,27 +216,27 @@ def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round)
     layout = Layout.of(latest.zones)
     if layout is None:
         return None
-    found = with_free_ends(nip, model, kernels, layout, latest, _COARSELY)
+    found = with_free_ends(nip, model, kernels, layout, latest, _COARSE_TOLERANCE)
     return found if is_verified(found, model) else None
 
 
-def restarted(
+def restart(
     nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round
-) -> tuple[PairKernels, Round, Stage]:
+) -> tuple[PairKernels, Round, ContactStage]:
     """Return a first contact anew: with the accelerated correction or, if that fails, the last one.
 
     ``both``: influence functions with either.
     """
     half_width = 0.5 * latest.figures.nip_width
     for kernels in both if both[0].held is not both[1].held else both[:1]:
-        held, found, stage = begin(nip, model, kernels, half_width)
+        held, found, stage = first_contact(nip, model, kernels, half_width)
         if found.settled:
             break
     return held, found, stage
 
 
-def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
+def _at_same_stage(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: ContactStage, change: float
 ) -> Round:
     """Solve at the same stage with the next correction; not ``settled`` where that fails."""
     if not latest.is_placed:
@@ -242,12 +247,12 @@ def _solved_again(
         start = latest.state.states, latest.second, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
     else:
-        model_of_stage = coarsely(model) if stage is Stage.COARSE else model
-        found = _placed_again(nip, model_of_stage, kernels, latest)
+        model_of_stage = coarse_model(model) if stage is ContactStage.COARSE else model
+        found = _with_moved_ends(nip, model_of_stage, kernels, latest)
     return replace(found, error=latest.error, make_further_error=latest.make_further_error)
 
 
-def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+def _with_moved_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """Solve with the next correction, which moves the free ends of zones.
 
     One mesh is enough if the ends are moved to where the last solution puts them. Nodes that crowd
@@ -258,7 +263,7 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), misplacement=_COARSELY)
+        search = SearchState(layout, replace(latest, second=second), misplacement=_COARSE_TOLERANCE)
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)

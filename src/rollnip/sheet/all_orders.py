@@ -29,7 +29,7 @@ from rollnip.rolling.all_orders import (
 )
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
-from rollnip.rolling.contact_stages import NEARLY, coarsely
+from rollnip.rolling.contact_stages import NEARLY_CONVERGED, coarse_model
 from rollnip.rolling.corrections import PairCorrection, RollerTractions
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.attempt import AnyAttempt
@@ -61,7 +61,7 @@ def solve_by_iteration(
     if skin_thickness(kind.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
     try:
-        attempt = _begun(kind, coarsely(model), kernels, half_width)
+        attempt = _begun(kind, coarse_model(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
     for cut_factor in CUT_FACTORS:
@@ -112,7 +112,7 @@ class _Contact(Generic[S]):
         if refine:
             self._refine(kernels, found)
             return
-        model = coarsely(self.model) if self.refined is None else self.model
+        model = coarse_model(self.model) if self.refined is None else self.model
         size = _COARSE if self.refined is None else self.refined.count
         half_width = 0.5 * found.zones.width
         count = round(elements_to_begin_with(self.kind, half_width, size))
@@ -157,7 +157,7 @@ def _iterate_until_settled(
                 break
         kernels = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
-        begins = refined is None and is_full_load and near <= NEARLY
+        begins = refined is None and is_full_load and near <= NEARLY_CONVERGED
         if begins:
             mixer = AndersonMixer(places_by_the_edges(_edges(attempt)))
         contact.solve(kernels, refine=begins)

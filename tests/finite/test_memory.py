@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.finite import Body, Depths, MeshState, Strip, deformed_surface, linear_surface, nodal
+from rollnip.finite import (
+    Body,
+    Depths,
+    MeshState,
+    Strip,
+    deformed_surface,
+    linear_between_nodes,
+    linear_surface,
+)
 from rollnip.finite.memory import Memory
 from rollnip.finite.power import heat_inside, linear_heat_inside
 from rollnip.finite.viscous import Relaxing
@@ -87,7 +95,7 @@ def test_linear_elements_are_the_linear_theory(material):
     under = HALF * np.sin(np.linspace(-1.57, 1.57, 33))
     places = np.concatenate([-beside[::-1], under, beside])
     body = Body(Strip(Depths.of(roller, HALF), places), SPEED)
-    u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
+    u_x, u_z = linear_surface(body, body.linear_displacements(linear_between_nodes(nodes, p, q)))
     inside = np.abs(places) < HALF
     window = covering_window((roller, BARE), SPEED)
     surface = surface_kernels(roller, SPEED, "second", window)

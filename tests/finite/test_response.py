@@ -9,8 +9,8 @@ from rollnip.finite import (
     Depths,
     FiniteResponse,
     Strip,
+    linear_between_nodes,
     linear_surface,
-    nodal,
     response,
 )
 from rollnip.finite.state import MeshState
@@ -58,7 +58,7 @@ def test_linear_elements_are_the_linear_theory(roller):
     )
     places = np.concatenate([places, np.linspace(2.5, 40, 30)])
     body = Body(Strip(Depths.of(roller, HALF), places))
-    u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
+    u_x, u_z = linear_surface(body, body.linear_displacements(linear_between_nodes(nodes, p, q)))
     inside = np.abs(places) < HALF
     surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     xx, zz, xz = displacement_under(
@@ -194,7 +194,7 @@ def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
         assert body.strip.order is not None
         assert body.strip.band == 8 * 16 + 9
         monkeypatch.setattr(Strip, "_kind", kind)
-        acting = nodal(nodes, p, q)
+        acting = linear_between_nodes(nodes, p, q)
         made.append(body.equilibrium(acting, body.linear_state(acting), still=1e-9).displacement)
         monkeypatch.undo()
     np.testing.assert_allclose(made[0], made[1], atol=1e-9 * np.abs(made[0]).max())

@@ -24,8 +24,8 @@ from math import inf, sqrt
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.follower_load import FollowerLoad, Tractions, summed
 from rollnip.finite.memory import Memory
-from rollnip.finite.pull import Pull, Tractions, summed
 from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError, Tangent
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip
 from rollnip.finite.viscous import Relaxing, Viscous
@@ -147,8 +147,7 @@ class Body:
 
     def _law(self, volume: Array) -> tuple[Array, Array]:
         """Return c and dc/dJ at J, for compressible elements (values of the others are unused)."""
-        shear, lame, _ = self._constants
-        law = np.empty((2, *volume.shape))
+        (shear, lame, _), law = self._constants, np.empty((2, *volume.shape))
         for energy, where in self._energies:
             law[:, where] = energy.volume_slopes(volume[where], lame[where])
         turned = self._rest * shear / volume
@@ -282,14 +281,14 @@ class Body:
         by_i, by_j = ii * along + ij * swell, ij * along + jj * swell
         return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
 
-    def _tangent(self, fields: _Fields, loads: tuple[Indices, Array] | None) -> Tangent:
-        """Factorise the tangent stiffness; ``loads`` are its entries from the follower loads."""
+    def _tangent(self, fields: _Fields, load_stiffness: tuple[Indices, Array] | None) -> Tangent:
+        """Factorise the tangent stiffness, with the load stiffness in it if that is given."""
         means = self._means(fields)
         rate = fields.rate @ means
         relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
         stiffness = self._stiffness(fields, means, rate, relaxing)
-        if loads is not None:
-            np.subtract.at(stiffness, *loads)
+        if load_stiffness is not None:
+            np.subtract.at(stiffness, *load_stiffness)
         band = above = self.strip.band
         matrix = stiffness.reshape(self.strip.size, 3 * band + 1)
         if relaxing is not None:
@@ -323,7 +322,8 @@ class Body:
         The tractions are given at undeformed arcs, per undeformed arc, along the tangent and the
         normal of the undeformed surface. ``left``: relative residual of an iterative solution.
         """
-        return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
+        load = FollowerLoad.undeformed(self.strip, tractions)
+        return self.at_first.solved(load.nodal_forces, left)
 
     def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
         """Return the displacements of linear theory, as above, with their pressures."""
@@ -361,11 +361,11 @@ class Body:
         deformation = self.strip.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
-            pulled = Pull.of(self.strip, state.displacement, tractions)
+            load = FollowerLoad.of(self.strip, state.displacement, tractions)
             is_new = tangent is None
             if tangent is None:
-                tangent = self._tangent(fields, pulled.turning)
-            left_over = pulled.loads - self._force(fields, tangent.means)
+                tangent = self._tangent(fields, load.stiffness)
+            left_over = load.nodal_forces - self._force(fields, tangent.means)
             step = tangent.solved(left_over, _LEFT_BY_A_STEP)
             part, deformation = self._part(deformation, step)
             change = part * fields.step + tangent.pressures(self.strip.local(part * step))
@@ -374,7 +374,7 @@ class Body:
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
             is_first = before == inf
             shrinks = _CURVED * size if is_first else size / before
-            done = max(float(pulled.loads @ state.displacement), float(np.finfo(float).tiny))
+            done = max(float(load.nodal_forces @ state.displacement), float(np.finfo(float).tiny))
             work = sqrt(abs(float(left_over @ step)) / done)
             first = max(first, work)
             left = work if is_first and not is_new else work * min(shrinks, 1.0)

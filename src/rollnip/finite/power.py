@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from rollnip.finite.equilibrium import Body
-from rollnip.finite.pull import Tractions
+from rollnip.finite.follower_load import Tractions
 from rollnip.finite.strip import Array, on_circle
 
 

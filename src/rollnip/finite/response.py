@@ -18,9 +18,9 @@ import numpy as np
 
 from rollnip.finite._smooth import Smoothing
 from rollnip.finite._spline import Spline
-from rollnip.finite.acting import Acting, Linear
 from rollnip.finite.columns import Columns
 from rollnip.finite.equilibrium import STILL, Body
+from rollnip.finite.nodal_tractions import Linear, NodalTractions
 from rollnip.finite.power import heat_inside, linear_heat_inside
 from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
@@ -73,7 +73,7 @@ class Equilibrium:
     loaded : the ends under the tractions.
     displacement : (unknowns,) [mm].
     pressure : (elements, 3), see `MeshState` [MPa].
-    acting : the tractions.
+    applied : the tractions.
     speed : V at which the covering passes [mm/s]; viscoelastic layers need it.
     """
 
@@ -81,7 +81,7 @@ class Equilibrium:
     loaded: slice
     displacement: Array
     pressure: Array
-    acting: Acting
+    applied: NodalTractions
     speed: float | None
 
 
@@ -169,7 +169,7 @@ class FiniteResponse:
         self.is_found = True
         self.load_fraction = 1.0
         self.extra_heat = 0.0
-        self.arc_tractions: Acting | None = None
+        self.arc_tractions: NodalTractions | None = None
 
     @property
     def equilibrium(self) -> Equilibrium | None:
@@ -182,7 +182,7 @@ class FiniteResponse:
             self._mesh.loaded,
             state.displacement,
             state.pressure,
-            self._mesh.acting,
+            self._mesh.applied,
             body.speed,
         )
 
@@ -192,7 +192,7 @@ class FiniteResponse:
             return None
         body = flat if self._speed is None else replace(flat, speed=start.speed)
         state = MeshState(start.displacement, start.pressure)
-        return _LoadedMesh(flat, body, state, start.loaded, start.acting)
+        return _LoadedMesh(flat, body, state, start.loaded, start.applied)
 
     def correction(
         self,
@@ -223,10 +223,10 @@ class FiniteResponse:
             self.rough, self.extra_heat, self.arc_tractions = _no_correction(nodes), 0.0, None
             return self.rough
         places, loaded = self._columns.places(nodes, pressure, has_several_zones=has_several_zones)
-        acting = Acting.on(nodes, pressure, shear)
+        applied = NodalTractions.on(nodes, pressure, shear)
         try:
             self.load_fraction = 1.0
-            mesh = self._full_or_first_step(places, loaded, acting) or self._load_step(acting)
+            mesh = self._full_or_first_step(places, loaded, applied) or self._load_step(applied)
         except NoEquilibriumError:
             self.is_found = False
             self._mesh = None
@@ -245,7 +245,7 @@ class FiniteResponse:
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
         if not roughly or self._linear_error is None or self._linear_error.shape != u.shape:
             self._linear_error = self._error_in_linear_theory(mesh, x, surface.arcs[near])
-        u -= self._linear_error + mesh.acting.linear_displacement(self._linear, x)
+        u -= self._linear_error + mesh.applied.linear_displacement(self._linear, x)
         through = Spline.bending if self._columns.skin < np.inf else Spline.through
         return tuple(through(x, row) for row in u)
 
@@ -267,11 +267,11 @@ class FiniteResponse:
         Tractions act on the same material as at finite strain, so that the elements are loaded
         alike and their errors cancel.
         """
-        self.arc_tractions = moved = mesh.acting.moved(x, arcs)
-        tractions = moved.tractions
+        self.arc_tractions = moved = mesh.applied.at_arcs(x, arcs)
+        tractions = moved.as_function
         linear = mesh.flat.linear_displacements(tractions, self._gmres_tolerance)
         if mesh.body.memory is not None:
-            heat = heat_inside(mesh.body, mesh.state.displacement, mesh.acting.tractions)
+            heat = heat_inside(mesh.body, mesh.state.displacement, mesh.applied.as_function)
             self.extra_heat = heat - linear_heat_inside(mesh.flat, linear, tractions)
         near = np.abs(mesh.flat.strip.ends) < self._near
         made = np.stack(linear_surface(mesh.flat, linear))[:, near]
@@ -279,59 +279,65 @@ class FiniteResponse:
         return made
 
     def _full_or_first_step(
-        self, places: Array, loaded: slice, acting: Acting
+        self, places: Array, loaded: slice, applied: NodalTractions
     ) -> _LoadedMesh | None:
         """Return the equilibrium under some tractions, or at first under a share of them.
 
         None where there is none but there was one under the last tractions.
         """
         try:
-            return self._equilibrium_under(places, loaded, acting)
+            return self._equilibrium_under(places, loaded, applied)
         except NoEquilibriumError:
-            return None if self._mesh is not None else self._first_load_step(places, loaded, acting)
+            return (
+                None if self._mesh is not None else self._first_load_step(places, loaded, applied)
+            )
 
-    def _first_load_step(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
+    def _first_load_step(
+        self, places: Array, loaded: slice, applied: NodalTractions
+    ) -> _LoadedMesh:
         """Return the equilibrium under half of the first tractions, or a quarter, and so on."""
         while self.load_fraction > _LEAST_FRACTION:
             self.load_fraction *= 0.5
             try:
-                return self._equilibrium_under(places, loaded, acting.times(self.load_fraction))
+                return self._equilibrium_under(places, loaded, applied.times(self.load_fraction))
             except NoEquilibriumError:
                 continue
         raise NoEquilibriumError
 
-    def _load_step(self, acting: Acting) -> _LoadedMesh:
+    def _load_step(self, applied: NodalTractions) -> _LoadedMesh:
         """Return the equilibrium half-way from the last tractions to these, or a quarter, ..."""
         last = self._mesh
         assert last is not None
         while self.load_fraction > _LEAST_FRACTION:
             self.load_fraction *= 0.5
-            mixed = last.acting.towards(acting, self.load_fraction)
+            mixed = last.applied.towards(applied, self.load_fraction)
             start = MeshState(last.state.displacement, last.state.pressure)
             try:
-                state = last.body.equilibrium(mixed.tractions, start)
+                state = last.body.equilibrium(mixed.as_function, start)
             except NoEquilibriumError:
                 continue
-            return replace(last, state=state, acting=mixed)
+            return replace(last, state=state, applied=mixed)
         raise NoEquilibriumError
 
-    def _equilibrium_under(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
+    def _equilibrium_under(
+        self, places: Array, loaded: slice, applied: NodalTractions
+    ) -> _LoadedMesh:
         """Return the equilibrium under these tractions, on the last mesh if that lies well."""
-        last, tractions = self._mesh, acting.tractions
+        last, tractions = self._mesh, applied.as_function
         tolerance = self._move_factor * _SAME_PLACE * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
             state = last.body.equilibrium(tractions, last.state, STILL, _STEP_TOLERANCE)
-            return replace(last, state=state, acting=acting)
+            return replace(last, state=state, applied=applied)
         if last is not None:
             flat, body, state = self._remeshed(last, places, loaded)
         else:
-            moved = acting.linear_displacement(self._linear, places[loaded])[0]
+            moved = applied.linear_displacement(self._linear, places[loaded])[0]
             flat, body = self._bodies_on(places, loaded, places[loaded] - moved)
-            arcs = acting.moved(places[loaded], places[loaded] - moved)
-            state = flat.linear_state(arcs.tractions, self._gmres_tolerance)
+            arcs = applied.at_arcs(places[loaded], places[loaded] - moved)
+            state = flat.linear_state(arcs.as_function, self._gmres_tolerance)
         for _ in range(_MOST_MESHES):
             state = body.equilibrium(tractions, state, STILL, _STEP_TOLERANCE)
-            mesh = _LoadedMesh(flat, body, state, loaded, acting)
+            mesh = _LoadedMesh(flat, body, state, loaded, applied)
             if mesh.is_near(places[loaded], None, tolerance):
                 break
             flat, body, state = self._remeshed(mesh, places, loaded)
@@ -374,7 +380,7 @@ class _LoadedMesh:
     body: Body
     state: MeshState
     loaded: slice
-    acting: Acting
+    applied: NodalTractions
 
     def is_near(self, places: Array, speed: float | None, tolerance: float) -> bool:
         """Return whether loaded columns lie at some places, within a tolerance, at that speed."""

@@ -25,7 +25,7 @@ from rollnip.finite import (
     Tractions,
     deformed_surface,
     element_fields,
-    nodal,
+    linear_between_nodes,
     present_place,
 )
 from rollnip.interior.tractions import Array, SurfaceTractions
@@ -163,7 +163,7 @@ def _solved(
     near = _NEAR * half_width
     depths = _depths(roller, half_width, split)
     places = _columns(roller, loaded, columns)
-    acting = nodal(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
+    acting = linear_between_nodes(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
     flat = Body(Strip(depths, places), None if speeds is None else speeds[0])
     small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), still=_STILL)
     linear = MeshState(small.displacement / _SMALL, small.pressure / _SMALL)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.finite.pull import Tractions
+from rollnip.finite.follower_load import Tractions
 from rollnip.finite.strip import Array
 
 Linear = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
@@ -20,7 +20,7 @@ Linear = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
 Arguments: the places x (n,), the nodes (N+1,), and pressure and shear at nodes[1:-1]."""
 
 
-def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
+def linear_between_nodes(nodes: Array, pressure: Array, shear: Array) -> Tractions:
     """Return tractions that are linear between nodes and zero at the first and the last node.
 
     Parameters
@@ -46,7 +46,7 @@ def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
 
 
 @dataclass(frozen=True)
-class Acting:
+class NodalTractions:
     """Tractions on a surface: a weighted sum of some that are linear between nodes.
 
     Attributes
@@ -57,19 +57,21 @@ class Acting:
     parts: tuple[tuple[float, Array, Array, Array], ...]
 
     @classmethod
-    def on(cls, nodes: Array, pressure: Array, shear: Array) -> Acting:
+    def on(cls, nodes: Array, pressure: Array, shear: Array) -> NodalTractions:
         """Return tractions that are linear between some nodes, with the weight 1."""
         return cls(((1.0, nodes, pressure, shear),))
 
-    def towards(self, other: Acting, share: float) -> Acting:
+    def towards(self, other: NodalTractions, share: float) -> NodalTractions:
         """Return (1 - share) times these tractions plus ``share`` times the others."""
-        return Acting(self.times(1.0 - share).parts + other.times(share).parts)
+        return NodalTractions(self.times(1.0 - share).parts + other.times(share).parts)
 
-    def times(self, factor: float) -> Acting:
+    def times(self, factor: float) -> NodalTractions:
         """Return the tractions times a factor."""
-        return Acting(tuple((factor * share, nodes, p, q) for share, nodes, p, q in self.parts))
+        return NodalTractions(
+            tuple((factor * share, nodes, p, q) for share, nodes, p, q in self.parts)
+        )
 
-    def moved(self, x: Array, arcs: Array) -> Acting:
+    def at_arcs(self, x: Array, arcs: Array) -> NodalTractions:
         """Return the tractions at the undeformed arcs of the material that they act on.
 
         ``x`` (n,) are increasing present places and ``arcs`` (n,) the arcs of the material there,
@@ -79,12 +81,12 @@ class Acting:
         def at(nodes: Array) -> Array:
             return np.interp(nodes, x, arcs) + nodes - np.clip(nodes, x[0], x[-1])
 
-        return Acting(tuple((share, at(nodes), p, q) for share, nodes, p, q in self.parts))
+        return NodalTractions(tuple((share, at(nodes), p, q) for share, nodes, p, q in self.parts))
 
     @property
-    def tractions(self) -> Tractions:
+    def as_function(self) -> Tractions:
         """Pressure, shear and their derivatives, as a function of the place."""
-        parts = [(share, nodal(*rest)) for share, *rest in self.parts]
+        parts = [(share, linear_between_nodes(*rest)) for share, *rest in self.parts]
         if len(parts) == 1 and parts[0][0] == 1.0:
             return parts[0][1]
         return lambda x: np.asarray(sum(share * one(x) for share, one in parts))

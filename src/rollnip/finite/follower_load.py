@@ -18,7 +18,7 @@ Tractions = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
-class Pull:
+class FollowerLoad:
     """Tractions on the surface of a mesh in some state, at the Gauss points of the surface.
 
     Attributes
@@ -35,7 +35,7 @@ class Pull:
     tractions: Array
 
     @classmethod
-    def of(cls, strip: Strip, displacement: Array, tractions: Tractions) -> Pull:
+    def of(cls, strip: Strip, displacement: Array, tractions: Tractions) -> FollowerLoad:
         """Return the loads at displacements (unknowns,), with tractions given at present places."""
         surface = strip.surface
         local = displacement[surface.unknowns]
@@ -46,14 +46,14 @@ class Pull:
         return cls(strip, along + rates[..., 0], up + rates[..., 1], acting)
 
     @classmethod
-    def undeformed(cls, strip: Strip, tractions: Tractions) -> Pull:
+    def undeformed(cls, strip: Strip, tractions: Tractions) -> FollowerLoad:
         """Return the loads of linear theory, with tractions given at undeformed arcs."""
         surface = strip.surface
         _, cos, sin = surface.undeformed
         return cls(strip, cos, sin, surface.weights * tractions(surface.arcs))
 
     @property
-    def loads(self) -> Array:
+    def nodal_forces(self) -> Array:
         """External forces at the nodes, (unknowns,) [N/mm]."""
         along, up, (p, q, _, _) = self.along, self.up, self.tractions
         surface = self.strip.surface
@@ -62,7 +62,7 @@ class Pull:
         return summed(surface.unknowns.ravel(), made.ravel(), self.strip.size)
 
     @property
-    def turning(self) -> tuple[Indices, Array]:
+    def stiffness(self) -> tuple[Indices, Array]:
         """Load stiffness, the derivative of the forces: places in banded storage, and entries."""
         surface = self.strip.surface
         n, d = surface.values, surface.slopes

@@ -130,7 +130,7 @@ def test_slow_and_fast_rolling_are_elastic(energy, poisson):
             return bump(x, size)
 
         found, wanted = (
-            body.equilibrium(load, body.at_rest(), still=1e-7).displacement
+            body.equilibrium(load, body.at_rest(), tolerance=1e-7).displacement
             for body in (slow, still)
         )
         found, wanted = slow.strip.on_surface(found)[8:-8], slow.strip.on_surface(wanted)[8:-8]
@@ -143,12 +143,12 @@ def test_slow_and_fast_rolling_are_elastic(energy, poisson):
 def test_steps_follow_the_derivative(poisson, energy):
     """Steps of Newton's method double the correct digits: memory is in the derivative whole."""
     body = Body(strip(covered(prony(1.0, poisson, energy)), columns=24), SPEED)
-    target = body.equilibrium(bump, body.at_rest(), still=1e-10).displacement
+    target = body.equilibrium(bump, body.at_rest(), tolerance=1e-10).displacement
     near = MeshState(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(2):
         fresh = MeshState(near.displacement, near.pressure)  # without a derivative
-        near = body.equilibrium(bump, fresh, still=np.inf)
+        near = body.equilibrium(bump, fresh, tolerance=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-3
     assert errors[1] < 3.0 * errors[0] ** 2 + 1e-6
@@ -169,7 +169,7 @@ def test_a_sheared_layer_creeps_as_linear_theory_says():
         q = peak * np.exp(-(x**2) / 18.0)
         return 0.0 * x, q, 0.0 * x, -x / 9.0 * q
 
-    state = body.equilibrium(load, body.at_rest(), still=1e-7)
+    state = body.equilibrium(load, body.at_rest(), tolerance=1e-7)
     surface = deformed_surface(body, state)
     s = np.arange(-400.0, 400.0, 0.02)
     k = 2.0 * np.pi * np.fft.fftfreq(s.size, 0.02)
@@ -194,7 +194,7 @@ def test_three_ways_to_the_heat(number, poisson):
     after, before = -np.geomspace(40.0, 4.2, 24), np.geomspace(4.5, 12.0, 5)
     ends = np.concatenate([after, np.linspace(-4.0, 4.0, 65), before])
     body = Body(Strip(Depths.of(covered(material), HALF), ends), SPEED)
-    state = body.equilibrium(bump, body.at_rest(), still=1e-8)
+    state = body.equilibrium(bump, body.at_rest(), tolerance=1e-8)
     heat = heat_inside(body, state.displacement, bump)
     assert heat > 0.0
     assert work_of_stresses(body, state) == pytest.approx(heat, rel=1e-2)
@@ -248,7 +248,7 @@ def broken_strands(body, state, shear, time):
 def test_an_elastic_covering_makes_no_heat():
     """To the mesh: a thousandth of the power that the shear passes on."""
     body = Body(strip(covered(rn.Elastic(modulus=1.0, poisson=0.5)), columns=96))
-    state = body.equilibrium(bump, body.at_rest(), still=1e-8)
+    state = body.equilibrium(bump, body.at_rest(), tolerance=1e-8)
     passed_on = 0.075 * np.sqrt(np.pi)
     assert abs(heat_inside(body, state.displacement, bump)) < 1e-3 * passed_on
     assert abs(linear_heat_inside(body, body.linear_displacements(bump), bump)) < 1e-3 * passed_on

@@ -195,6 +195,8 @@ def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
         assert body.strip.band == 8 * 16 + 9
         monkeypatch.setattr(Strip, "_kind", kind)
         acting = linear_between_nodes(nodes, p, q)
-        made.append(body.equilibrium(acting, body.linear_state(acting), still=1e-9).displacement)
+        made.append(
+            body.equilibrium(acting, body.linear_state(acting), tolerance=1e-9).displacement
+        )
         monkeypatch.undo()
     np.testing.assert_allclose(made[0], made[1], atol=1e-9 * np.abs(made[0]).max())

@@ -26,7 +26,13 @@ from scipy.linalg import lapack
 
 from rollnip.finite.follower_load import FollowerLoad, Tractions, summed
 from rollnip.finite.memory import Memory
-from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError, Tangent
+from rollnip.finite.state import (
+    GMRES_TOLERANCE,
+    MeshState,
+    NoEquilibriumError,
+    PointFields,
+    Tangent,
+)
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip
 from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
@@ -34,45 +40,21 @@ from rollnip.materials import Energy, NeoHookean, Slopes
 # Compliance of the volume to the pressure, over 1/G, with which an incompressible layer is regular
 # within a step. The result does not depend on it: every step updates the pressures, as an augmented
 # Lagrangian does, and reduces J - 1 by about this factor.
-_YIELD = 1e-6
-_SOFT = NeoHookean()
+_VOLUME_COMPLIANCE = 1e-6
+_NEO_HOOKEAN = NeoHookean()
 # Tolerance: root of the energy of the error over that of the work of the tractions. Displacements
 # alone would not do: a skin answers short waves, a millionth of the displacement, with pressures
 # like those of the contact.
-STILL = 1e-5
+EQUILIBRIUM_TOLERANCE = 1e-5
 # Equilibria that converge take five steps at most (485 of the examples and 100 random nips).
 _MOST_STEPS = 15
 _LEAST_VOLUME = 0.1  # smallest J that a step may lead to
-_LEFT_BY_A_STEP = 1e-3  # relative residual of an iterative linear solution within a step
-_SHORTEST = 1e-2  # smallest part of a Newton step that is tried
+_STEP_GMRES_TOLERANCE = 1e-3  # relative residual of an iterative linear solution within a step
+_LEAST_PART = 1e-2  # smallest part of a Newton step that is tried
 _CONTRACTION = 0.3  # ratio of successive steps up to which a tangent is used again
 # Ratio expected of the step after the first one, if both use the tangent at the start, over the
 # first step relative to the displacement.
-_CURVED = 3.0
-
-
-@dataclass(frozen=True)
-class _Fields:
-    """Deformation and stresses of a state, from which forces and tangent are assembled.
-
-    Attributes
-    ----------
-    deformation : (4, elements, 9) F at the Gauss points, see `Strip.deformation`.
-    c : (elements, 9) G w_J + c, the factor of cof F.
-    straight : (elements, 9) 2 G w_I, the factor of F.
-    step : (elements, 3) change of the pressures by a Newton step without displacements.
-    rate : (elements, 3, 3) derivatives of the pressures by the volumes.
-    second : G times the derivatives of w; None where those of second order are zero.
-    viscous : stresses that relax; None where all layers are elastic.
-    """
-
-    deformation: Array
-    c: Array
-    straight: Array
-    step: Array
-    rate: Array
-    second: Slopes | None
-    viscous: Viscous | None
+_EXPECTED_CONTRACTION = 3.0
 
 
 @dataclass(frozen=True)
@@ -112,7 +94,7 @@ class Body:
     @cached_property
     def _energies(self) -> list[tuple[Energy, Array | slice]]:
         """The different strain energies, each with the mask of the elements that have it."""
-        given = [layer.material.energy or _SOFT for layer in self.strip.depths.roller.layers]
+        given = [layer.material.energy or _NEO_HOOKEAN for layer in self.strip.depths.roller.layers]
         different = list(dict.fromkeys(given))
         if len(different) == 1:
             return [(different[0], slice(None))]
@@ -156,7 +138,7 @@ class Body:
     def _volume_terms(
         self, ratio: Array, pressure: Array, viscous: Viscous | None
     ) -> tuple[Array, ...]:
-        """Return `_Fields.c` without G w_J, `_Fields.step` and `_Fields.rate`.
+        """Return c, and the pressure step and the pressure rate of `PointFields`.
 
         ``ratio``, (elements, 9), is J at the Gauss points. Compressible elements have independent
         pressures, too, which a step sets to what their law says of the projected volume: with
@@ -165,8 +147,8 @@ class Body:
         shear, _, rigid = self._constants
         weighted, inverse = self.strip.products
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
-        step = rigid * (shear / _YIELD) * (mean - (1.0, 0.0, 0.0))
-        rate = (rigid * shear / _YIELD)[..., None] * inverse
+        pressure_step = rigid * (shear / _VOLUME_COMPLIANCE) * (mean - (1.0, 0.0, 0.0))
+        pressure_rate = (rigid * shear / _VOLUME_COMPLIANCE)[..., None] * inverse
         c = pressure @ LINEAR.T - self._rest * shear
         if not rigid.all():
             projected = mean @ LINEAR.T
@@ -178,91 +160,94 @@ class Body:
             wanted = (inverse @ (weighted @ law[..., None]))[..., 0] - pressure
             wanted[:, :1] += self._rest * shear
             soft = inverse @ (weighted @ (slope[..., None] * LINEAR)) @ inverse
-            step = np.where(rigid > 0.0, step, wanted)
-            rate = np.where(rigid[..., None] > 0.0, rate, soft)
-        return c, step, rate
+            pressure_step = np.where(rigid > 0.0, pressure_step, wanted)
+            pressure_rate = np.where(rigid[..., None] > 0.0, pressure_rate, soft)
+        return c, pressure_step, pressure_rate
 
     @cached_property
-    def _is_soft(self) -> bool:
+    def _is_neo_hookean(self) -> bool:
         """Return whether all layers are neo-Hookean."""
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
-    def _fields(self, state: MeshState, deformation: Array | None = None) -> _Fields:
+    def _fields(self, state: MeshState, deformation: Array | None = None) -> PointFields:
         """Return the fields of a state; ``deformation`` is its F, if known."""
         if deformation is None:
             deformation = self.strip.deformation(state.displacement)
         x_s, x_z, y_s, y_z = deformation
         ratio, shear = x_s * y_z - x_z * y_s, self._constants[0]
-        straight, second = np.broadcast_to(shear, ratio.shape), None
+        isotropic, energy_slopes = np.broadcast_to(shear, ratio.shape), None
         slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
-        if not self._is_soft:
+        if not self._is_neo_hookean:
             slopes = self._slopes(ratio, (x_s - y_z) ** 2 + (x_z + y_s) ** 2)
-            second = Slopes(*(shear * one for one in slopes))
-            straight = 2.0 * second.i
+            energy_slopes = Slopes(*(shear * one for one in slopes))
+            isotropic = 2.0 * energy_slopes.i
         viscous = None
         if self.memory is not None:
             constants = (*self._constants[:2], self._rest)
             viscous = Viscous.of(self.memory, deformation, constants, self._energies, slopes)
-        c, step, rate = self._volume_terms(ratio, state.pressure, viscous)
-        if second is not None:
-            c = c + second.j
-        return _Fields(deformation, c, straight, step, rate, second, viscous)
+        c, pressure_step, pressure_rate = self._volume_terms(ratio, state.pressure, viscous)
+        if energy_slopes is not None:
+            c = c + energy_slopes.j
+        return PointFields(
+            deformation, c, isotropic, pressure_step, pressure_rate, energy_slopes, viscous
+        )
 
     def relaxing(self, state: MeshState) -> Viscous | None:
         """Return the relaxing stresses of a state; None where all layers are elastic."""
         return None if self.memory is None else self._fields(state).viscous
 
-    def _means(self, fields: _Fields) -> Array:
-        """Return the derivatives of int J N dV by the displacements, (elements, 3, 18).
-
-        N are the functions of the basis `LINEAR`.
-        """
+    def _gradients(self, fields: PointFields) -> tuple[Array, Array]:
+        """Return `Tangent.volume_gradients` and `Tangent.pressure_gradients`."""
         x_s, x_z, y_s, y_z = fields.deformation
-        return self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
+        of_volume = self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
+        return of_volume, fields.pressure_rate @ of_volume
 
-    def _force(self, fields: _Fields, means: Array) -> Array:
+    def _force(self, fields: PointFields, volume_gradients: Array) -> Array:
         """Return the internal forces at the nodes, the step of the pressures included."""
         (x_s, x_z, y_s, y_z), c = fields.deformation, fields.c
-        stress = fields.straight * fields.deformation
+        stress = fields.isotropic * fields.deformation
         stress[0] += c * y_z
         stress[1] -= c * y_s
         stress[2] -= c * x_z
         stress[3] += c * x_s
         force = self.strip.forces(stress)
-        force += (fields.step[:, None] @ means)[:, 0]
+        force += (fields.pressure_step[:, None] @ volume_gradients)[:, 0]
         if fields.viscous is not None:
             force += fields.viscous.force
         # Forces on the core, numbered -1, are added up at place 0 and left out.
         return summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
     @cached_property
-    def _soft(self) -> Array:
+    def _neo_hookean_stiffness(self) -> Array:
         """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
         return self.strip.isotropic(self._constants[0])
 
     def _stiffness(
-        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
+        self, fields: PointFields, gradients: tuple[Array, Array], relaxing: Relaxing | None
     ) -> Array:
         """Return the derivative of the internal forces by the displacements, in banded storage.
 
         Flat, (stored,). What relaxing stresses owe to other Gauss points is left out.
         """
-        stiff = self._element_stiffness(fields, means, rate, relaxing)
+        stiff = self._element_stiffness(fields, gradients, relaxing)
         stored = self.strip.stored
         return summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
 
     def _element_stiffness(
-        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
+        self, fields: PointFields, gradients: tuple[Array, Array], relaxing: Relaxing | None
     ) -> Array:
         """Return the same of every element, before assembly, (elements, 2, 9, 2, 9)."""
-        straight = self._soft if self._is_soft else self.strip.isotropic(fields.straight)
+        if self._is_neo_hookean:
+            straight = self._neo_hookean_stiffness
+        else:
+            straight = self.strip.isotropic(fields.isotropic)
         turn = self.strip.turning(fields.c)
-        stiff = means.transpose(0, 2, 1) @ rate
+        stiff = gradients[0].transpose(0, 2, 1) @ gradients[1]
         if fields.viscous is not None and relaxing is not None:
             straight = straight + fields.viscous.turning
             stiff += relaxing.at_once()
-        if fields.second is not None:
-            stiff += self._stiffening(fields.deformation, fields.second)
+        if fields.energy_slopes is not None:
+            stiff += self._stiffening(fields.deformation, fields.energy_slopes)
         stiff = stiff.reshape(-1, 2, 9, 2, 9)
         stiff[:, 0, :, 0] += straight
         stiff[:, 1, :, 1] += straight
@@ -281,12 +266,13 @@ class Body:
         by_i, by_j = ii * along + ij * swell, ij * along + jj * swell
         return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
 
-    def _tangent(self, fields: _Fields, load_stiffness: tuple[Indices, Array] | None) -> Tangent:
+    def _tangent(
+        self, fields: PointFields, load_stiffness: tuple[Indices, Array] | None
+    ) -> Tangent:
         """Factorise the tangent stiffness, with the load stiffness in it if that is given."""
-        means = self._means(fields)
-        rate = fields.rate @ means
+        gradients = self._gradients(fields)
         relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
-        stiffness = self._stiffness(fields, means, rate, relaxing)
+        stiffness = self._stiffness(fields, gradients, relaxing)
         if load_stiffness is not None:
             np.subtract.at(stiffness, *load_stiffness)
         band = above = self.strip.band
@@ -297,48 +283,52 @@ class Body:
         if info != 0:
             raise NoEquilibriumError
         order = self.strip.order
-        return Tangent((band, above), factors, pivots, means, rate, relaxing, order)
+        return Tangent((band, above), factors, pivots, *gradients, relaxing, order)
 
     @cached_property
-    def at_first(self) -> Tangent:
+    def initial_tangent(self) -> Tangent:
         """Tangent of the undeformed state without loads, symmetric where all layers are elastic."""
         fields = self._fields(self.at_rest())
         if self.memory is not None:
             return self._tangent(fields, None)
-        means, band = self._means(fields), self.strip.band
-        rate = fields.rate @ means
+        gradients, band = self._gradients(fields), self.strip.band
         entries, places = self.strip.lower_slots
-        stiffness = self._element_stiffness(fields, means, rate, None).ravel()[entries]
+        stiffness = self._element_stiffness(fields, gradients, None).ravel()[entries]
         lower = summed(places, stiffness, (band + 1) * self.strip.size)
         matrix = lower.reshape(self.strip.size, band + 1).T
         factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent((band, 0), factors, None, means, rate, order=self.strip.order)
+        return Tangent((band, 0), factors, None, *gradients, order=self.strip.order)
 
-    def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
+    def linear_displacements(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> Array:
         """Return the displacements of linear theory, (unknowns,) [mm].
 
         The tractions are given at undeformed arcs, per undeformed arc, along the tangent and the
-        normal of the undeformed surface. ``left``: relative residual of an iterative solution.
+        normal of the undeformed surface. ``rtol``: relative residual of an iterative solution.
         """
         load = FollowerLoad.undeformed(self.strip, tractions)
-        return self.at_first.solved(load.nodal_forces, left)
+        return self.initial_tangent.solve(load.nodal_forces, rtol)
 
-    def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
+    def linear_state(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> MeshState:
         """Return the displacements of linear theory, as above, with their pressures."""
-        displacement = self.linear_displacements(tractions, left)
-        return MeshState(displacement, self.at_first.pressures(self.strip.local(displacement)))
+        displacement = self.linear_displacements(tractions, rtol)
+        pressure = self.initial_tangent.pressure_changes(self.strip.local(displacement))
+        return MeshState(displacement, pressure)
 
     def equilibrium(
-        self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
+        self,
+        tractions: Tractions,
+        start: MeshState,
+        tolerance: float = EQUILIBRIUM_TOLERANCE,
+        step_tolerance: float = 0.0,
     ) -> MeshState:
         """Return the equilibrium under some tractions, by Newton's method.
 
         A step du against the residual force r is measured by sqrt(|du . r|) over the root of the
-        work of the tractions. Steps end when the estimated error is at most ``still``, or at most
-        ``share`` times the first step. A tangent is used again as long as each step is at most 0.3
-        of the one before; the first one is that of ``start``, if it has one.
+        work of the tractions. Steps end when the estimated error is at most ``tolerance``, or at
+        most ``step_tolerance`` times the first step. A tangent is used again as long as each step
+        is at most 0.3 of the one before; the first one is that of ``start``, if it has one.
 
         Raises
         ------
@@ -346,18 +336,18 @@ class Body:
             where steps do not converge from ``start``, not even with a new tangent there.
         """
         if start.tangent is None:
-            return self._by_steps(tractions, start, still, share)
+            return self._newton(tractions, start, tolerance, step_tolerance)
         try:
-            return self._by_steps(tractions, start, still, share)
+            return self._newton(tractions, start, tolerance, step_tolerance)
         except NoEquilibriumError:
             unloaded = MeshState(start.displacement, start.pressure)
-            return self._by_steps(tractions, unloaded, still, share)
+            return self._newton(tractions, unloaded, tolerance, step_tolerance)
 
-    def _by_steps(
-        self, tractions: Tractions, start: MeshState, still: float, share: float
+    def _newton(
+        self, tractions: Tractions, start: MeshState, tolerance: float, step_tolerance: float
     ) -> MeshState:
         """Take Newton steps from a state, the first ones with its tangent if it has one."""
-        state, tangent, before, first = start, start.tangent, inf, 0.0
+        state, tangent, last_step, first = start, start.tangent, inf, 0.0
         deformation = self.strip.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
@@ -365,33 +355,39 @@ class Body:
             is_new = tangent is None
             if tangent is None:
                 tangent = self._tangent(fields, load.stiffness)
-            left_over = load.nodal_forces - self._force(fields, tangent.means)
-            step = tangent.solved(left_over, _LEFT_BY_A_STEP)
-            part, deformation = self._part(deformation, step)
-            change = part * fields.step + tangent.pressures(self.strip.local(part * step))
+            residual = load.nodal_forces - self._force(fields, tangent.volume_gradients)
+            step = tangent.solve(residual, _STEP_GMRES_TOLERANCE)
+            part, deformation = self._admissible_part(deformation, step)
+            change = part * fields.pressure_step + tangent.pressure_changes(
+                self.strip.local(part * step)
+            )
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = MeshState(moved, pressed, tangent)
-            size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
-            is_first = before == inf
-            shrinks = _CURVED * size if is_first else size / before
-            done = max(float(load.nodal_forces @ state.displacement), float(np.finfo(float).tiny))
-            work = sqrt(abs(float(left_over @ step)) / done)
-            first = max(first, work)
-            left = work if is_first and not is_new else work * min(shrinks, 1.0)
-            if part == 1.0 and left <= max(still, share * first):
+            relative_step = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
+            is_first = last_step == inf
+            contraction = (
+                _EXPECTED_CONTRACTION * relative_step if is_first else relative_step / last_step
+            )
+            load_work = max(
+                float(load.nodal_forces @ state.displacement), float(np.finfo(float).tiny)
+            )
+            measure = sqrt(abs(float(residual @ step)) / load_work)
+            first = max(first, measure)
+            error = measure if is_first and not is_new else measure * min(contraction, 1.0)
+            if part == 1.0 and error <= max(tolerance, step_tolerance * first):
                 return state
-            before = size
-            if part < 1.0 or not shrinks <= _CONTRACTION:
-                tangent, before = None, inf
+            last_step = relative_step
+            if part < 1.0 or not contraction <= _CONTRACTION:
+                tangent, last_step = None, inf
         raise NoEquilibriumError
 
-    def _part(self, deformation: Array, step: Array) -> tuple[float, Array]:
+    def _admissible_part(self, deformation: Array, step: Array) -> tuple[float, Array]:
         """Return the part of a step that may be taken, and F after it.
 
         The step is halved until J > 0.1 at all Gauss points, so that no element is inverted.
         """
         change, part = self.strip.gradient(step), 1.0
-        while part >= _SHORTEST:
+        while part >= _LEAST_PART:
             moved = deformation + part * change
             x_s, x_z, y_s, y_z = moved
             if float((x_s * y_z - x_z * y_s).min()) > _LEAST_VOLUME:

@@ -19,10 +19,10 @@ import numpy as np
 from rollnip.finite._smooth import Smoothing
 from rollnip.finite._spline import Spline
 from rollnip.finite.columns import Columns
-from rollnip.finite.equilibrium import STILL, Body
+from rollnip.finite.equilibrium import Body
 from rollnip.finite.nodal_tractions import Linear, NodalTractions
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError
+from rollnip.finite.state import GMRES_TOLERANCE, MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
@@ -157,7 +157,7 @@ class FiniteResponse:
             self._near = min(self._near, _FRONT * roller.radius)
         self._mesh = None if start is None else self._mesh_from(start)
         self._coarse_factor = 1.0
-        self._move_factor, self._gmres_tolerance = 1.0, LEFT
+        self._move_factor, self._gmres_tolerance = 1.0, GMRES_TOLERANCE
         self._coarse_move_factor = (
             _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
         )
@@ -215,7 +215,7 @@ class FiniteResponse:
             if the contact has moved a little more, and its errors as they were; half the waves.
         has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
         """
-        self._gmres_tolerance = _COARSE_RESIDUAL if roughly else LEFT
+        self._gmres_tolerance = _COARSE_RESIDUAL if roughly else GMRES_TOLERANCE
         self._coarse_factor = _COARSE_WAVE_SHARE if roughly else 1.0
         self._move_factor = self._coarse_move_factor if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
@@ -326,7 +326,7 @@ class FiniteResponse:
         last, tractions = self._mesh, applied.as_function
         tolerance = self._move_factor * _SAME_PLACE * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
-            state = last.body.equilibrium(tractions, last.state, STILL, _STEP_TOLERANCE)
+            state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
             return replace(last, state=state, applied=applied)
         if last is not None:
             flat, body, state = self._remeshed(last, places, loaded)
@@ -336,7 +336,7 @@ class FiniteResponse:
             arcs = applied.at_arcs(places[loaded], places[loaded] - moved)
             state = flat.linear_state(arcs.as_function, self._gmres_tolerance)
         for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state, STILL, _STEP_TOLERANCE)
+            state = body.equilibrium(tractions, state, step_tolerance=_STEP_TOLERANCE)
             mesh = _LoadedMesh(flat, body, state, loaded, applied)
             if mesh.is_near(places[loaded], None, tolerance):
                 break

@@ -1,4 +1,4 @@
-"""States of a mesh, and its factorised tangent stiffness."""
+"""States of a mesh, the fields that follow from them, and the factorised tangent stiffness."""
 
 from __future__ import annotations
 
@@ -8,15 +8,40 @@ import numpy as np
 from scipy.linalg import lapack
 
 from rollnip.finite.strip import Array, Indices, Strip, quadratics
-from rollnip.finite.viscous import Relaxing
+from rollnip.finite.viscous import Relaxing, Viscous
+from rollnip.materials import Slopes
 
-LEFT = 1e-7  # relative residual of an iterative linear solution
-_KEPT = 60  # Krylov vectors before GMRES restarts
-_MOST_STARTS = 3  # of GMRES
+GMRES_TOLERANCE = 1e-7  # relative residual of an iterative linear solution
+_KRYLOV_VECTORS = 60  # before GMRES restarts
+_MOST_GMRES_CYCLES = 3
 
 
 class NoEquilibriumError(ArithmeticError):
     """No equilibrium was found: an element is inverted, or Newton's method does not converge."""
+
+
+@dataclass(frozen=True)
+class PointFields:
+    """Deformation and stresses of a state, from which forces and tangent are assembled.
+
+    Attributes
+    ----------
+    deformation : (4, elements, 9) F at the Gauss points, see `Strip.deformation`.
+    c : (elements, 9) G w_J + c, the factor of cof F.
+    isotropic : (elements, 9) 2 G w_I, the factor of F.
+    pressure_step : (elements, 3) change of the pressures by a Newton step without displacements.
+    pressure_rate : (elements, 3, 3) derivatives of the pressures by the volumes.
+    energy_slopes : G times the derivatives of w; None where those of second order are zero.
+    viscous : stresses that relax; None where all layers are elastic.
+    """
+
+    deformation: Array
+    c: Array
+    isotropic: Array
+    pressure_step: Array
+    pressure_rate: Array
+    energy_slopes: Slopes | None
+    viscous: Viscous | None
 
 
 @dataclass(frozen=True)
@@ -31,9 +56,9 @@ class Tangent:
     ----------
     bands : number of diagonals below the main one and above it.
     factors, pivots : from LAPACK's dgbtrf; where ``pivots`` is None, from dpbtrf.
-    means : (elements, 3, 18) derivatives of int J N dV by the displacements of an element, N the
-        functions of the basis `LINEAR`.
-    rate : (elements, 3, 18) derivatives of the pressures by the displacements of an element.
+    volume_gradients : (elements, 3, 18) derivatives of int J N dV by the displacements of an
+        element, N the functions of the basis `LINEAR`.
+    pressure_gradients : (elements, 3, 18) derivatives of the pressures likewise.
     relaxing : derivative of the relaxing forces, for what the factors leave out; None where all
         layers are elastic.
     order : (unknowns,) the row of the matrix of each unknown; None: in order.
@@ -42,51 +67,57 @@ class Tangent:
     bands: tuple[int, int]
     factors: Array
     pivots: Indices | None
-    means: Array
-    rate: Array
+    volume_gradients: Array
+    pressure_gradients: Array
     relaxing: Relaxing | None = None
     order: Indices | None = None
 
-    def solved(self, loads: Array, left: float = LEFT) -> Array:
+    def solve(self, forces: Array, rtol: float = GMRES_TOLERANCE) -> Array:
         """Return the displacements under some nodal forces, (unknowns,).
 
-        ``left``: relative residual of the iterative solution, if there is one.
+        ``rtol``: relative residual of the iterative solution, if there is one.
         """
-        first = self._near(loads)
+        first = self._by_factors(forces)
         if self.relaxing is None:
             return first
         from scipy.sparse.linalg import LinearOperator, gmres  # nothing elastic needs it
 
-        relaxing, size = self.relaxing, loads.size
+        relaxing, size = self.relaxing, forces.size
 
         def applied(displacement: Array) -> Array:
-            return displacement + self._near(relaxing.from_far(displacement))
+            return displacement + self._by_factors(relaxing.from_far(displacement))
 
         whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
         out, failed = gmres(
-            whole, first, x0=first, rtol=left, atol=0.0, restart=_KEPT, maxiter=_MOST_STARTS
+            whole,
+            first,
+            x0=first,
+            rtol=rtol,
+            atol=0.0,
+            restart=_KRYLOV_VECTORS,
+            maxiter=_MOST_GMRES_CYCLES,
         )
         if failed != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out)
 
-    def pressures(self, local: Array) -> Array:
+    def pressure_changes(self, local: Array) -> Array:
         """Return the changes of the pressures (elements, 3) by displacements (elements, 18)."""
-        made = (self.rate @ local[..., None])[..., 0]
+        made = (self.pressure_gradients @ local[..., None])[..., 0]
         if self.relaxing is not None:
             made += self.relaxing.pressures(local)
         return np.asarray(made)
 
-    def _near(self, loads: Array) -> Array:
+    def _by_factors(self, forces: Array) -> Array:
         """Return the displacements by the factors alone, without what they leave out."""
         if self.order is not None:
-            by_place = np.empty_like(loads)
-            by_place[self.order] = loads
-            loads = by_place
+            by_place = np.empty_like(forces)
+            by_place[self.order] = forces
+            forces = by_place
         if self.pivots is None:
-            out, info = lapack.dpbtrs(self.factors, loads, lower=1)
+            out, info = lapack.dpbtrs(self.factors, forces, lower=1)
         else:
-            out, info = lapack.dgbtrs(self.factors, *self.bands, loads, self.pivots)
+            out, info = lapack.dgbtrs(self.factors, *self.bands, forces, self.pivots)
         if info != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out if self.order is None else out[self.order])

@@ -165,7 +165,7 @@ def _solved(
     places = _columns(roller, loaded, columns)
     acting = linear_between_nodes(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
     flat = Body(Strip(depths, places), None if speeds is None else speeds[0])
-    small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), still=_STILL)
+    small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), tolerance=_STILL)
     linear = MeshState(small.displacement / _SMALL, small.pressure / _SMALL)
     passing = flat if speeds is None else Body(flat.strip, speeds[1])
     body, state = _equilibrium(passing, linear, acting, near)

@@ -15,7 +15,7 @@ from rollnip.finite import (
 )
 from rollnip.finite.memory import Memory
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.viscous import Relaxing
+from rollnip.finite.relaxing_stress import RelaxingTangent
 from rollnip.influence import covering_window, displacement_under, surface_kernels
 from rollnip.materials import memory_integral, relaxation_modulus
 
@@ -62,7 +62,7 @@ def test_a_wave_relaxes_by_the_complex_modulus(material):
     def packet(s):
         return np.exp(-(s**2) / 18.0) * np.cos(1.3 * s)
 
-    found = Memory(body.strip, SPEED).relaxing(packet(arcs)[..., None])[..., 0]
+    found = Memory(body.strip, SPEED).history_integral(packet(arcs)[..., None])[..., 0]
     s = np.arange(-400.0, 400.0, 0.02)
     k = 2.0 * np.pi * np.fft.fftfreq(s.size, 0.02)
     factor = material.modulus_at(-1j * k * SPEED) / material.relaxed_modulus - 1.0
@@ -205,7 +205,7 @@ def test_three_ways_to_the_heat(number, poisson):
 
 def work_of_stresses(body, state):
     """Int T : dE of the relaxing part of the stress along every row, by trapezoids."""
-    viscous, strip = body._fields(state).viscous, body.strip
+    viscous, strip = body._fields(state).relaxing, body.strip
     x_s, x_z, y_s, y_z = viscous.deformation
     strain = [0.5 * (x_s**2 + y_s**2 - 1.0), 0.5 * (x_z**2 + y_z**2 - 1.0), x_s * x_z + y_s * y_z]
     if viscous.volume is not None:
@@ -230,7 +230,7 @@ def broken_strands(body, state, shear, time):
     (G/2 tau) (tr CA + tr (CA)^-1 - 4) >= 0; that of volume, lambda (m - n)^2/2, by twice it over
     tau.
     """
-    viscous = body._fields(state).viscous
+    viscous = body._fields(state).relaxing
     x_s, x_z, y_s, y_z = viscous.deformation
     c_ss, c_zz, c_sz = x_s**2 + y_s**2, x_z**2 + y_z**2, x_s * x_z + y_s * y_z
     volume = c_ss * c_zz - c_sz**2
@@ -261,8 +261,8 @@ def test_a_stiff_glass_takes_few_products(monkeypatch, number):
     With those of each point alone a step took 1200 products and more, and came to no end.
     """
     products = []
-    far = Memory.from_far
-    monkeypatch.setattr(Memory, "from_far", lambda *given: products.append(1) or far(*given))
+    far = Memory.far_integral
+    monkeypatch.setattr(Memory, "far_integral", lambda *given: products.append(1) or far(*given))
     solid = rn.StandardLinearSolid(
         modulus=1.0, stiffening=299.0, relaxation_time=number * HALF / SPEED, poisson=0.49
     )
@@ -278,21 +278,21 @@ def test_near_and_far_memory_are_the_whole():
     """Stored near forces and those from far are all that come from other points."""
     body = Body(strip(covered(prony(0.3, 0.4)), columns=12, reach=3.0), SPEED)
     state = body.equilibrium(bump, body.at_rest())
-    relaxing = Relaxing.of(body.relaxing(state))
+    relaxing = RelaxingTangent.of(body.relaxing_stress(state))
     size, band = body.strip.size, body.strip.band
-    stored = relaxing.with_near(np.zeros((size, 3 * band + 1)))
+    stored = relaxing.with_near_columns(np.zeros((size, 3 * band + 1)))
     near = np.zeros((size, size))
     for column in range(size):
         row = np.arange(max(0, column - 2 * band), min(size, column + band + 1))
         near[row, column] = stored[column, 3 * band + row - column]
     moved = np.random.default_rng(3).normal(size=size)
     local = np.append(moved, 0.0)[body.strip.unknowns]
-    change = (relaxing.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
+    change = (relaxing.stress_derivative @ local[..., None]).reshape(local.shape[0], 9, -1)
     memory = relaxing.memory
-    others = memory.relaxing(change) - memory.at_once[..., None] * change
+    others = memory.history_integral(change) - memory.own_weights[..., None] * change
     force = np.zeros(size + 1)
-    made = (others.reshape(local.shape[0], 1, -1) @ relaxing.by)[:, 0]
+    made = (others.reshape(local.shape[0], 1, -1) @ relaxing.strain_derivative)[:, 0]
     np.add.at(force, body.strip.unknowns, made)
-    whole = near @ moved + relaxing.from_far(moved)
+    whole = near @ moved + relaxing.far_forces(moved)
     np.testing.assert_allclose(whole, force[:-1], atol=1e-10 * np.abs(force[:-1]).max())
-    assert np.abs(relaxing.from_far(moved)).max() < 0.5 * np.abs(force[:-1]).max()
+    assert np.abs(relaxing.far_forces(moved)).max() < 0.5 * np.abs(force[:-1]).max()

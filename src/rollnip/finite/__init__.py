@@ -2,10 +2,10 @@
 
 `strip` is the mesh of a covering, `numbering` its unknowns in banded storage, `columns` where its
 columns lie. `equilibrium` solves it by Newton's method under tractions that follow the surface
-(`follower_load`, `nodal_tractions`); `memory` and `viscous` add stresses that relax, `state` holds
-states and tangents. `response` turns equilibria into the correction of the linear displacement that
-a contact is solved with; `_spline` and `_smooth` make it a smooth function of the place. `stress`
-evaluates the fields inside, `power` the heat.
+(`follower_load`, `nodal_tractions`); `memory` and `relaxing_stress` add viscoelastic stresses,
+`state` holds states and tangents. `response` turns equilibria into the correction of the linear
+displacement that a contact is solved with; `_spline` and `_smooth` make it a smooth function of the
+place. `stress` evaluates the fields inside, `power` the heat.
 """
 
 from rollnip.finite._spline import Spline

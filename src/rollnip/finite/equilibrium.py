@@ -26,6 +26,7 @@ from scipy.linalg import lapack
 
 from rollnip.finite.follower_load import FollowerLoad, Tractions, summed
 from rollnip.finite.memory import Memory
+from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.state import (
     GMRES_TOLERANCE,
     MeshState,
@@ -34,7 +35,6 @@ from rollnip.finite.state import (
     Tangent,
 )
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip
-from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
 
 # Compliance of the volume to the pressure, over 1/G, with which an incompressible layer is regular
@@ -136,7 +136,7 @@ class Body:
         return law[0] - turned, law[1] + turned / volume
 
     def _volume_terms(
-        self, ratio: Array, pressure: Array, viscous: Viscous | None
+        self, ratio: Array, pressure: Array, relaxing: RelaxingStress | None
     ) -> tuple[Array, ...]:
         """Return c, and the pressure step and the pressure rate of `PointFields`.
 
@@ -155,8 +155,8 @@ class Body:
             if not np.all(projected > 0.0):
                 raise NoEquilibriumError
             law, slope = self._law(projected)
-            if viscous is not None:
-                law, slope = law + viscous.volume_law[0], slope + viscous.volume_law[1]
+            if relaxing is not None:
+                law, slope = law + relaxing.volume_law[0], slope + relaxing.volume_law[1]
             wanted = (inverse @ (weighted @ law[..., None]))[..., 0] - pressure
             wanted[:, :1] += self._rest * shear
             soft = inverse @ (weighted @ (slope[..., None] * LINEAR)) @ inverse
@@ -181,28 +181,30 @@ class Body:
             slopes = self._slopes(ratio, (x_s - y_z) ** 2 + (x_z + y_s) ** 2)
             energy_slopes = Slopes(*(shear * one for one in slopes))
             isotropic = 2.0 * energy_slopes.i
-        viscous = None
+        relaxing = None
         if self.memory is not None:
             constants = (*self._constants[:2], self._rest)
-            viscous = Viscous.of(self.memory, deformation, constants, self._energies, slopes)
-        c, pressure_step, pressure_rate = self._volume_terms(ratio, state.pressure, viscous)
+            relaxing = RelaxingStress.of(
+                self.memory, deformation, constants, self._energies, slopes
+            )
+        c, pressure_step, pressure_rate = self._volume_terms(ratio, state.pressure, relaxing)
         if energy_slopes is not None:
             c = c + energy_slopes.j
         return PointFields(
-            deformation, c, isotropic, pressure_step, pressure_rate, energy_slopes, viscous
+            deformation, c, isotropic, pressure_step, pressure_rate, energy_slopes, relaxing
         )
 
-    def relaxing(self, state: MeshState) -> Viscous | None:
+    def relaxing_stress(self, state: MeshState) -> RelaxingStress | None:
         """Return the relaxing stresses of a state; None where all layers are elastic."""
-        return None if self.memory is None else self._fields(state).viscous
+        return None if self.memory is None else self._fields(state).relaxing
 
-    def _gradients(self, fields: PointFields) -> tuple[Array, Array]:
-        """Return `Tangent.volume_gradients` and `Tangent.pressure_gradients`."""
+    def _derivatives(self, fields: PointFields) -> tuple[Array, Array]:
+        """Return `Tangent.volume_derivatives` and `Tangent.pressure_derivatives`."""
         x_s, x_z, y_s, y_z = fields.deformation
         of_volume = self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
         return of_volume, fields.pressure_rate @ of_volume
 
-    def _force(self, fields: PointFields, volume_gradients: Array) -> Array:
+    def _force(self, fields: PointFields, volume_derivatives: Array) -> Array:
         """Return the internal forces at the nodes, the step of the pressures included."""
         (x_s, x_z, y_s, y_z), c = fields.deformation, fields.c
         stress = fields.isotropic * fields.deformation
@@ -211,9 +213,9 @@ class Body:
         stress[2] -= c * x_z
         stress[3] += c * x_s
         force = self.strip.forces(stress)
-        force += (fields.pressure_step[:, None] @ volume_gradients)[:, 0]
-        if fields.viscous is not None:
-            force += fields.viscous.force
+        force += (fields.pressure_step[:, None] @ volume_derivatives)[:, 0]
+        if fields.relaxing is not None:
+            force += fields.relaxing.force
         # Forces on the core, numbered -1, are added up at place 0 and left out.
         return summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
@@ -222,30 +224,26 @@ class Body:
         """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
         return self.strip.isotropic(self._constants[0])
 
-    def _stiffness(
-        self, fields: PointFields, gradients: tuple[Array, Array], relaxing: Relaxing | None
-    ) -> Array:
-        """Return the derivative of the internal forces by the displacements, in banded storage.
-
-        Flat, (stored,). What relaxing stresses owe to other Gauss points is left out.
-        """
-        stiff = self._element_stiffness(fields, gradients, relaxing)
-        stored = self.strip.stored
-        return summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
-
     def _element_stiffness(
-        self, fields: PointFields, gradients: tuple[Array, Array], relaxing: Relaxing | None
+        self,
+        fields: PointFields,
+        derivatives: tuple[Array, Array],
+        relaxing: RelaxingTangent | None,
     ) -> Array:
-        """Return the same of every element, before assembly, (elements, 2, 9, 2, 9)."""
+        """Return the derivative of the internal forces by the displacements, before assembly.
+
+        Of every element, (elements, 2, 9, 2, 9). What relaxing stresses owe to other Gauss points
+        is left out.
+        """
         if self._is_neo_hookean:
             straight = self._neo_hookean_stiffness
         else:
             straight = self.strip.isotropic(fields.isotropic)
         turn = self.strip.turning(fields.c)
-        stiff = gradients[0].transpose(0, 2, 1) @ gradients[1]
-        if fields.viscous is not None and relaxing is not None:
-            straight = straight + fields.viscous.turning
-            stiff += relaxing.at_once()
+        stiff = derivatives[0].transpose(0, 2, 1) @ derivatives[1]
+        if fields.relaxing is not None and relaxing is not None:
+            straight = straight + fields.relaxing.geometric_stiffness
+            stiff += relaxing.own_stiffness()
         if fields.energy_slopes is not None:
             stiff += self._stiffening(fields.deformation, fields.energy_slopes)
         stiff = stiff.reshape(-1, 2, 9, 2, 9)
@@ -270,20 +268,22 @@ class Body:
         self, fields: PointFields, load_stiffness: tuple[Indices, Array] | None
     ) -> Tangent:
         """Factorise the tangent stiffness, with the load stiffness in it if that is given."""
-        gradients = self._gradients(fields)
-        relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
-        stiffness = self._stiffness(fields, gradients, relaxing)
+        derivatives = self._derivatives(fields)
+        relaxing = None if fields.relaxing is None else RelaxingTangent.of(fields.relaxing)
+        stiffness = self._element_stiffness(fields, derivatives, relaxing).ravel()
+        stored = self.strip.stored
+        stiffness = summed(self.strip.slots, stiffness, stored + 1)[:stored]
         if load_stiffness is not None:
             np.subtract.at(stiffness, *load_stiffness)
         band = above = self.strip.band
         matrix = stiffness.reshape(self.strip.size, 3 * band + 1)
         if relaxing is not None:
-            matrix, above = relaxing.with_near(matrix), 2 * band
+            matrix, above = relaxing.with_near_columns(matrix), 2 * band
         factors, pivots, info = lapack.dgbtrf(matrix.T, band, above, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
         order = self.strip.order
-        return Tangent((band, above), factors, pivots, *gradients, relaxing, order)
+        return Tangent((band, above), factors, pivots, *derivatives, relaxing, order)
 
     @cached_property
     def initial_tangent(self) -> Tangent:
@@ -291,15 +291,15 @@ class Body:
         fields = self._fields(self.at_rest())
         if self.memory is not None:
             return self._tangent(fields, None)
-        gradients, band = self._gradients(fields), self.strip.band
+        derivatives, band = self._derivatives(fields), self.strip.band
         entries, places = self.strip.lower_slots
-        stiffness = self._element_stiffness(fields, gradients, None).ravel()[entries]
+        stiffness = self._element_stiffness(fields, derivatives, None).ravel()[entries]
         lower = summed(places, stiffness, (band + 1) * self.strip.size)
         matrix = lower.reshape(self.strip.size, band + 1).T
         factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent((band, 0), factors, None, *gradients, order=self.strip.order)
+        return Tangent((band, 0), factors, None, *derivatives, order=self.strip.order)
 
     def linear_displacements(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> Array:
         """Return the displacements of linear theory, (unknowns,) [mm].
@@ -355,7 +355,7 @@ class Body:
             is_new = tangent is None
             if tangent is None:
                 tangent = self._tangent(fields, load.stiffness)
-            residual = load.nodal_forces - self._force(fields, tangent.volume_gradients)
+            residual = load.nodal_forces - self._force(fields, tangent.volume_derivatives)
             step = tangent.solve(residual, _STEP_GMRES_TOLERANCE)
             part, deformation = self._admissible_part(deformation, step)
             change = part * fields.pressure_step + tangent.pressure_changes(

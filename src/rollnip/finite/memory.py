@@ -58,11 +58,11 @@ class Memory:
         given = arcs, self.strip.ends[[0, -1]], self.speed
         return [(np.array(where), _weights(one, *given)) for one, where in rows.items()]
 
-    def relaxing(self, values: Array) -> Array:
+    def history_integral(self, values: Array) -> Array:
         """Return int g(t - t') df/dt' dt' of values f at Gauss points, (elements, 9, parts)."""
         return self._summed(values, [weights for _, weights in self._layers])
 
-    def from_far(self, values: Array) -> Array:
+    def far_integral(self, values: Array) -> Array:
         """Return the same without the values of the own element and of the next one in its row."""
         return self._summed(values, self._far)
 
@@ -89,11 +89,11 @@ class Memory:
         return [weights * is_far for _, weights in self._layers]
 
     @cached_property
-    def near(self) -> tuple[Array, Array]:
+    def near_weights(self) -> tuple[Array, Array]:
         """Weights of the Gauss points of the own element, and of those of the next one in its row.
 
         Each (elements, 3, 3), by points along the arc. The weights of a point on itself are
-        `at_once`, and 0 here.
+        `own_weights`, and 0 here.
         """
         columns, rows = self.strip.columns, self.strip.depths.owner.size
         out = np.zeros((2, columns, rows, 3, 3))
@@ -105,7 +105,7 @@ class Memory:
         return out[0].reshape(-1, 3, 3), out[1].reshape(-1, 3, 3)
 
     @cached_property
-    def at_once(self) -> Array:
+    def own_weights(self) -> Array:
         """Weight of the value at each Gauss point on itself, (elements, 9)."""
         rows = self.strip.depths.owner.size
         out = np.zeros((3 * self.strip.columns, rows))

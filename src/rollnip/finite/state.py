@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.strip import Array, Indices, Strip, quadratics
-from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Slopes
 
 GMRES_TOLERANCE = 1e-7  # relative residual of an iterative linear solution
@@ -32,7 +32,7 @@ class PointFields:
     pressure_step : (elements, 3) change of the pressures by a Newton step without displacements.
     pressure_rate : (elements, 3, 3) derivatives of the pressures by the volumes.
     energy_slopes : G times the derivatives of w; None where those of second order are zero.
-    viscous : stresses that relax; None where all layers are elastic.
+    relaxing : stresses that relax; None where all layers are elastic.
     """
 
     deformation: Array
@@ -41,7 +41,7 @@ class PointFields:
     pressure_step: Array
     pressure_rate: Array
     energy_slopes: Slopes | None
-    viscous: Viscous | None
+    relaxing: RelaxingStress | None
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,9 @@ class Tangent:
     ----------
     bands : number of diagonals below the main one and above it.
     factors, pivots : from LAPACK's dgbtrf; where ``pivots`` is None, from dpbtrf.
-    volume_gradients : (elements, 3, 18) derivatives of int J N dV by the displacements of an
+    volume_derivatives : (elements, 3, 18) derivatives of int J N dV by the displacements of an
         element, N the functions of the basis `LINEAR`.
-    pressure_gradients : (elements, 3, 18) derivatives of the pressures likewise.
+    pressure_derivatives : (elements, 3, 18) derivatives of the pressures likewise.
     relaxing : derivative of the relaxing forces, for what the factors leave out; None where all
         layers are elastic.
     order : (unknowns,) the row of the matrix of each unknown; None: in order.
@@ -67,9 +67,9 @@ class Tangent:
     bands: tuple[int, int]
     factors: Array
     pivots: Indices | None
-    volume_gradients: Array
-    pressure_gradients: Array
-    relaxing: Relaxing | None = None
+    volume_derivatives: Array
+    pressure_derivatives: Array
+    relaxing: RelaxingTangent | None = None
     order: Indices | None = None
 
     def solve(self, forces: Array, rtol: float = GMRES_TOLERANCE) -> Array:
@@ -85,7 +85,7 @@ class Tangent:
         relaxing, size = self.relaxing, forces.size
 
         def applied(displacement: Array) -> Array:
-            return displacement + self._by_factors(relaxing.from_far(displacement))
+            return displacement + self._by_factors(relaxing.far_forces(displacement))
 
         whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
         out, failed = gmres(
@@ -103,9 +103,9 @@ class Tangent:
 
     def pressure_changes(self, local: Array) -> Array:
         """Return the changes of the pressures (elements, 3) by displacements (elements, 18)."""
-        made = (self.pressure_gradients @ local[..., None])[..., 0]
+        made = (self.pressure_derivatives @ local[..., None])[..., 0]
         if self.relaxing is not None:
-            made += self.relaxing.pressures(local)
+            made += self.relaxing.pressure_changes(local)
         return np.asarray(made)
 
     def _by_factors(self, forces: Array) -> Array:

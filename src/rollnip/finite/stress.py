@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.finite.equilibrium import Body
+from rollnip.finite.relaxing_stress import RelaxingStress
 from rollnip.finite.state import MeshState
 from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
-from rollnip.finite.viscous import Viscous
 from rollnip.materials import Energy, NeoHookean
 
 PARTS = ("u_x", "u_z", "s_xx", "s_zz", "s_xz", "s_yy", "e_xx", "e_zz", "e_xz", "energy")
@@ -87,15 +87,15 @@ def element_fields(
     deformed line of constant depth, less 1, and half the shear angle; strain energy per undeformed
     volume, with half the product of relaxing stress and strain [MPa].
     """
-    strip, viscous = body.strip, body.relaxing(state)
+    strip, relaxing = body.strip, body.relaxing_stress(state)
     law = _Law.of(strip)
     local = strip.local(state.displacement).reshape(-1, 2, 9).transpose(0, 2, 1)
     arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
     at = np.stack([along, down], axis=-1)
     c, stored = _volume_law(strip, law, state, at)
     held = None
-    if viscous is not None:
-        held = _projected(strip, _relaxed(law, viscous), at)
+    if relaxing is not None:
+        held = _projected(strip, _relaxed(law, relaxing), at)
         c, stored = c + held[..., 3], stored + held[..., 5]
     stretch = np.hypot(hoop[..., 0], hoop[..., 1])
     tangent = hoop / stretch[..., None]
@@ -230,13 +230,13 @@ def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, 
     return stress, axial, psi
 
 
-def _relaxed(law: _Law, viscous: Viscous) -> Array:
+def _relaxed(law: _Law, relaxing: RelaxingStress) -> Array:
     """Return what relaxing stresses amount to at the Gauss points, (elements, 9, 6).
 
     The relaxing parts of T_ss, T_zz and T_sz, what is added to c, that of T_yy along the axis, and
     the energy.
     """
-    x_s, x_z, y_s, y_z = viscous.deformation
+    x_s, x_z, y_s, y_z = relaxing.deformation
     volume, spread = x_s * y_z - x_z * y_s, (x_s - y_z) ** 2 + (x_z + y_s) ** 2
     total, apart = np.sqrt(spread + 4.0 * volume), np.sqrt(spread)
     principal = np.stack([0.5 * (total + apart), 0.5 * (total - apart), np.ones_like(total)])
@@ -244,13 +244,13 @@ def _relaxed(law: _Law, viscous: Viscous) -> Array:
     for energy, where in law.energies:
         third = energy.principal(principal[:, where])[2] - energy.rest
         axial[where] = law.shear[where] * third
-    held = viscous.stress
+    held = relaxing.stress
     along, across = 0.5 * (x_s**2 + y_s**2 - 1.0), 0.5 * (x_z**2 + y_z**2 - 1.0)
     work = held[..., 0] * along + held[..., 1] * across + held[..., 2] * (x_s * x_z + y_s * y_z)
-    if viscous.volume is not None:
-        work = work + held[..., 3] * viscous.volume[1]
-    pressed = np.broadcast_to(viscous.volume_law[0], volume.shape)
-    axial = viscous.memory.relaxing(axial[..., None])[..., 0]
+    if relaxing.volume is not None:
+        work = work + held[..., 3] * relaxing.volume[1]
+    pressed = np.broadcast_to(relaxing.volume_law[0], volume.shape)
+    axial = relaxing.memory.history_integral(axial[..., None])[..., 0]
     return np.stack([*np.moveaxis(held[..., :3], -1, 0), pressed, axial, 0.5 * work], axis=-1)
 
 

@@ -211,7 +211,7 @@ def work_of_stresses(body, state):
     if viscous.volume is not None:
         strain.append(viscous.volume[1])
     count = len(strain)
-    held = strip.by_column(viscous.stress).reshape(-1, strip.depths.owner.size, 3, count)
+    held = strip.by_column(viscous.stress).reshape(-1, strip.depths.row_layers.size, 3, count)
     moved = np.diff(strip.by_column(np.stack(strain, axis=-1)).reshape(held.shape), axis=0)
     work = (0.5 * (held[1:] + held[:-1]) * moved).sum(axis=(0, 3))
     points, weights = np.polynomial.legendre.leggauss(3)

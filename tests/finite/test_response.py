@@ -172,7 +172,7 @@ def test_a_state_is_carried_to_other_columns_as_it_is():
     there = MeshState(displacement, pressure).on_columns(coarse, fine)
     moved, pressed = there.displacement, there.pressure
     gradient, finer = coarse.gradient(displacement), fine.gradient(moved)
-    rows = depths.owner.size
+    rows = depths.row_layers.size
     weights = coarse.volumes, fine.volumes
     for wide, narrow in ((gradient[2], finer[2]), (pressure @ LINEAR.T, pressed @ LINEAR.T)):
         whole = (weights[0] * wide)[3 * rows : 4 * rows].reshape(rows, 9).sum(axis=1)
@@ -189,7 +189,9 @@ def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
     nodes, p, q = tractions(0.1)
     made = []
     for by_rows in (True, False):
-        kind = property(lambda strip, rows=by_rows: (strip.columns, strip.depths.owner.size, rows))
+        kind = property(
+            lambda strip, rows=by_rows: (strip.columns, strip.depths.row_layers.size, rows)
+        )
         body = Body(Strip(depths, np.linspace(-4.0, 4.0, 17)))
         assert body.strip.order is not None
         assert body.strip.band == 8 * 16 + 9

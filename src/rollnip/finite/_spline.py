@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 # quadratic form of its slope and second derivative at the beginning, those at the end, and its rise
 # (end value less first value). Rows 0 to 3: Hessian with respect to the former four. Row 4: minus
 # the mixed derivatives with respect to these and the rise.
-_STIFF = np.array(
+_QUINTIC_ENERGY = np.array(
     [
         [192.0, 36.0, 168.0, -24.0],
         [36.0, 9.0, 24.0, -3.0],
@@ -47,7 +47,7 @@ class Spline:
     bends: Array
 
     @classmethod
-    def through(cls, x: Array, values: Array) -> Spline:
+    def natural_cubic(cls, x: Array, values: Array) -> Spline:
         """Return the natural cubic spline through n >= 3 points (no curvature at both ends)."""
         over, rise = 1.0 / (x[1:] - x[:-1]), values[1:] - values[:-1]
         diagonal, right, bent = np.zeros(x.size), np.zeros(x.size), 3.0 * rise * over * over
@@ -60,7 +60,7 @@ class Spline:
         return cls(x, values, slopes, bends)
 
     @classmethod
-    def bending(cls, x: Array, values: Array) -> Spline:
+    def natural_quintic(cls, x: Array, values: Array) -> Spline:
         """Return the natural quintic spline through some points.
 
         Of all functions through them it has the least integral of the squared third derivative. It
@@ -71,19 +71,21 @@ class Spline:
         band, right = np.zeros((4, 2 * x.size)), np.zeros(2 * x.size)
         for i in range(4):
             for j in range(i + 1):
-                band[i - j, j : j + 2 * length.size : 2] += _STIFF[i, j] * powers[3 - i % 2 - j % 2]
-            right[i : i + 2 * length.size : 2] += _STIFF[4, i] * rise * powers[4 - i % 2]
+                band[i - j, j : j + 2 * length.size : 2] += (
+                    _QUINTIC_ENERGY[i, j] * powers[3 - i % 2 - j % 2]
+                )
+            right[i : i + 2 * length.size : 2] += _QUINTIC_ENERGY[4, i] * rise * powers[4 - i % 2]
         made = lapack.dpbsv(band, right, lower=1)[1]
         return cls(x, values, made[::2], made[1::2])
 
     @classmethod
-    def mean(cls, shares: Array, splines: Sequence[Spline]) -> Spline:
+    def weighted_sum(cls, weights: Array, splines: Sequence[Spline]) -> Spline:
         """Return a weighted sum of splines, on the points of the last one."""
         x = splines[-1].x
         sums = np.zeros((3, x.size))
-        for share, one in zip(shares, splines, strict=True):
-            on = one if one.x is x else cls.through(x, one(x))
-            sums += share * np.stack((on.values, on.slopes, on.bends))
+        for weight, one in zip(weights, splines, strict=True):
+            on = one if one.x is x else cls.natural_cubic(x, one(x))
+            sums += weight * np.stack((on.values, on.slopes, on.bends))
         return cls(x, *sums)
 
     def __call__(self, x: Array, order: int = 0) -> Array:

@@ -19,9 +19,9 @@ from rollnip.rollers import Layer, Roller
 
 _COLUMNS = 32  # elements under the tractions, where no length below asks for more
 _BESIDE_EDGE = 0.15  # longest element at an edge, over `Columns.skin`
-_SLOPE = 0.25  # by which it grows per distance from the edge, under the tractions
+_EDGE_GROWTH = 0.25  # by which it grows per distance from the edge, under the tractions
 _FROM_EDGE = np.geomspace(0.1, 32.0, 18)  # distances, over `skin`, at which this is evaluated
-_SLOPE_BESIDE = 0.4  # as _SLOPE, beside the tractions, where the skin bends, too
+_OUTER_EDGE_GROWTH = 0.4  # as _EDGE_GROWTH, beside the tractions, where the skin bends, too
 # Longest element under the tractions, over `Columns.squeezed`. With 0.4 approach, width and peak
 # are within 2e-4 of those with 0.1; with 1 they are a few per cent off.
 _OVER_SQUEEZED = 0.4
@@ -32,14 +32,14 @@ _INSIDE = 4.0  # longest element anywhere under the tractions, over `skin`
 _GROWTH = 2.0  # ratio of the lengths of neighbouring elements beside the tractions, at most
 # Beside the tractions; "thickness" is that of the covering, at least _LEAST_THICKNESS half-widths.
 _LONGEST = 0.8  # longest element, over the thickness
-_LAG = 0.125  # the same over the shear lag of a skin; the larger of the two counts
+_LONGEST_OVER_LAG = 0.125  # the same over the shear lag of a skin; the larger of the two counts
 _REACH = 4.75  # of the mesh beyond the tractions, over the thickness
 _REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
-_LAGS = 5.0  # the same over the shear lag of a skin; the larger of the two counts
-_TURN = 2.5  # largest arc of the mesh, over the radius
-_TURNS = 2.0 * pi  # largest reach on account of the shear lag, over the radius
-_WAVES = 8.0  # largest wave number of the correction under a very stiff skin, times `skin`
-_STIFF = 10.0  # modulus of a layer over that of the one below at which half of it is left
+_REACH_OVER_LAG = 5.0  # the same over the shear lag of a skin; the larger of the two counts
+_LARGEST_ARC = 2.5  # largest arc of the mesh, over the radius
+_LARGEST_REACH_BY_LAG = 2.0 * pi  # largest reach on account of the shear lag, over the radius
+_SKIN_CUT = 8.0  # largest wave number of the correction under a very stiff skin, times `skin`
+_STIFF_RATIO = 10.0  # ratio of the moduli of two layers at which the effect of the stiffer one is half
 _LEAST_THICKNESS = 0.5  # see above
 
 
@@ -67,14 +67,16 @@ class Columns:
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Columns:
         """Return the lengths for a contact of about this half-width [mm]."""
-        thick, lag = max(roller.coating_thickness, _LEAST_THICKNESS * half_width), _lag(roller)
+        thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
+        lag = _shear_lag(roller)
         reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * thick
-        far = _LAGS * lag
+        far = _REACH_OVER_LAG * lag
         if roller.curvature > 0.0:
-            reach = min(reach, _TURN * roller.radius - half_width)
-            far = min(far, _TURNS * roller.radius)
-        longest = max(_LONGEST * thick, _LAG * lag)
-        return cls(longest, max(reach, far), _skin(roller), _cut(roller), _squeezed(roller))
+            reach = min(reach, _LARGEST_ARC * roller.radius - half_width)
+            far = min(far, _LARGEST_REACH_BY_LAG * roller.radius)
+        longest = max(_LONGEST * thick, _LONGEST_OVER_LAG * lag)
+        skin, squeezed = _skin_length(roller), _squeezed_thickness(roller)
+        return cls(longest, max(reach, far), skin, _skin_cut(roller), squeezed)
 
     def places(
         self, nodes: Array, pressure: Array, *, has_several_zones: bool = False
@@ -91,8 +93,8 @@ class Columns:
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
-        if has_several_zones and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _WAVES:
-            near = _crowded(near[0], near[-1], _INSIDE * self.skin)
+        if has_several_zones and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _SKIN_CUT:
+            near = _dense_at_edges(near[0], near[-1], _INSIDE * self.skin)
         under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]
         after = self._beside(under[-1] - under[-2])
@@ -108,7 +110,7 @@ class Columns:
             places = places[(places >= nodes[0]) & (places <= nodes[-1])]
         lengths, middles = np.diff(places), 0.5 * (places[1:] + places[:-1])
         to_edge = np.minimum(middles - nodes[0], nodes[-1] - middles)
-        longest = np.minimum(_BESIDE_EDGE * self.skin + _SLOPE * to_edge, _INSIDE * self.skin)
+        longest = np.minimum(_BESIDE_EDGE * self.skin + _EDGE_GROWTH * to_edge, _INSIDE * self.skin)
         longest = np.minimum(longest, _OVER_SQUEEZED * self.squeezed)
         even = np.interp(places, nodes, np.linspace(0.0, _COLUMNS, nodes.size))
         wanted = np.maximum(np.diff(even), lengths / longest)
@@ -124,12 +126,12 @@ class Columns:
         step, ends = min(first, self.longest), [0.0]
         while ends[-1] < self.reach:
             ends.append(ends[-1] + step)
-            bent = _BESIDE_EDGE * self.skin + _SLOPE_BESIDE * ends[-1]
+            bent = _BESIDE_EDGE * self.skin + _OUTER_EDGE_GROWTH * ends[-1]
             step = min(_GROWTH * step, self.longest, bent)
         return np.array(ends[1:]) * (self.reach / ends[-1])
 
 
-def _crowded(start: float, stop: float, length: float) -> Array:
+def _dense_at_edges(start: float, stop: float, length: float) -> Array:
     """Return places whose distance from either edge grows as a square within some length.
 
     So do the cosine nodes of a contact; from there to the middle the distance grows as an
@@ -141,7 +143,7 @@ def _crowded(start: float, stop: float, length: float) -> Array:
     return np.asarray(np.where(even < 0.0, start + to_edge, stop - to_edge))
 
 
-def _skin(roller: Roller) -> float:
+def _skin_length(roller: Roller) -> float:
     """Return the length within which pressures change beside an edge under a stiff top layer [mm].
 
     It is the thickness of that layer where it is much stiffer than the next one; inf where it is
@@ -154,7 +156,7 @@ def _skin(roller: Roller) -> float:
     return inf
 
 
-def _squeezed(roller: Roller) -> float:
+def _squeezed_thickness(roller: Roller) -> float:
     """Return the thickness squeezed between the tractions and a stiff layer or core [mm].
 
     Incompressible rubber flows sideways there, with a parabolic profile over this thickness driven
@@ -166,12 +168,12 @@ def _squeezed(roller: Roller) -> float:
         depth += layer.thickness
         softer = 0.0
         if below is not None:
-            softer = _STIFF * layer.material.relaxed_modulus / below.material.glassy_modulus
+            softer = _STIFF_RATIO * layer.material.relaxed_modulus / below.material.glassy_modulus
         least = min(least, depth * (1.0 + softer**3))
     return least
 
 
-def _cut(roller: Roller) -> float:
+def _skin_cut(roller: Roller) -> float:
     """Return the wave number up to which a stiff top layer needs waves of the correction [1/mm].
 
     Waves shorter than its thickness carry the pressure peak beside an edge, which only a layer many
@@ -181,11 +183,11 @@ def _cut(roller: Roller) -> float:
     if len(roller.layers) < 2:
         return 0.0
     top, below = (layer.material for layer in roller.layers[:2])
-    softer = _STIFF * below.relaxed_modulus / top.glassy_modulus
-    return _WAVES / (_skin(roller) * (1.0 + softer**3))
+    softer = _STIFF_RATIO * below.relaxed_modulus / top.glassy_modulus
+    return _SKIN_CUT / (_skin_length(roller) * (1.0 + softer**3))
 
 
-def _lag(roller: Roller) -> float:
+def _shear_lag(roller: Roller) -> float:
     """Return the largest shear lag: the length over which a layer passes its force to the core."""
     lag, below = 0.0, 0.0
     for layer in reversed(roller.layers):

@@ -145,7 +145,7 @@ class Body:
         these, Newton's method converges as well where nu is nearly 0.5.
         """
         shear, _, rigid = self._constants
-        weighted, inverse = self.strip.products
+        weighted, inverse = self.strip.projection
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
         pressure_step = rigid * (shear / _VOLUME_COMPLIANCE) * (mean - (1.0, 0.0, 0.0))
         pressure_rate = (rigid * shear / _VOLUME_COMPLIANCE)[..., None] * inverse
@@ -201,7 +201,7 @@ class Body:
     def _derivatives(self, fields: PointFields) -> tuple[Array, Array]:
         """Return `Tangent.volume_derivatives` and `Tangent.pressure_derivatives`."""
         x_s, x_z, y_s, y_z = fields.deformation
-        of_volume = self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
+        of_volume = self.strip.forces_by_basis(np.stack([y_z, -y_s, -x_z, x_s]))
         return of_volume, fields.pressure_rate @ of_volume
 
     def _force(self, fields: PointFields, volume_derivatives: Array) -> Array:
@@ -222,7 +222,7 @@ class Body:
     @cached_property
     def _neo_hookean_stiffness(self) -> Array:
         """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
-        return self.strip.isotropic(self._constants[0])
+        return self.strip.gradient_stiffness(self._constants[0])
 
     def _element_stiffness(
         self,
@@ -238,8 +238,8 @@ class Body:
         if self._is_neo_hookean:
             straight = self._neo_hookean_stiffness
         else:
-            straight = self.strip.isotropic(fields.isotropic)
-        turn = self.strip.turning(fields.c)
+            straight = self.strip.gradient_stiffness(fields.isotropic)
+        turn = self.strip.cofactor_stiffness(fields.c)
         stiff = derivatives[0].transpose(0, 2, 1) @ derivatives[1]
         if fields.relaxing is not None and relaxing is not None:
             straight = straight + fields.relaxing.geometric_stiffness
@@ -256,7 +256,7 @@ class Body:
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
         """Return what the second derivatives of w add, with dI = 2 F : dF and dJ = cof F : dF."""
         x_s, x_z, y_s, y_z = deformation[..., None]
-        by_s, by_z = self.strip.shapes
+        by_s, by_z = self.strip.shape_derivatives
         along = 2.0 * np.concatenate([x_s * by_s + x_z * by_z, y_s * by_s + y_z * by_z], axis=-1)
         swell = np.concatenate([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-1)
         parts = (second.ii, second.ij, second.jj)
@@ -271,7 +271,7 @@ class Body:
         derivatives = self._derivatives(fields)
         relaxing = None if fields.relaxing is None else RelaxingTangent.of(fields.relaxing)
         stiffness = self._element_stiffness(fields, derivatives, relaxing).ravel()
-        stored = self.strip.stored
+        stored = self.strip.storage_size
         stiffness = summed(self.strip.slots, stiffness, stored + 1)[:stored]
         if load_stiffness is not None:
             np.subtract.at(stiffness, *load_stiffness)

@@ -50,8 +50,8 @@ class Memory:
         """The rows of elements of every viscoelastic material, and its `_weights`."""
         rows: dict[Material, list[int]] = {}
         depths = self.strip.depths
-        for row, owner in enumerate(depths.owner):
-            material = depths.roller.layers[owner].material
+        for row, layer in enumerate(depths.row_layers):
+            material = depths.roller.layers[layer].material
             if not material.is_elastic:
                 rows.setdefault(material, []).append(row)
         arcs = self.strip.by_column(self.strip.points[0])[:, 0, 0]
@@ -68,7 +68,7 @@ class Memory:
 
     def _summed(self, values: Array, all_weights: list[Array]) -> Array:
         parts = values.shape[-1]
-        rows = self.strip.depths.owner.size
+        rows = self.strip.depths.row_layers.size
         by_row = self.strip.by_column(values)
         out = np.zeros(by_row.shape)
         for (where, _), weights in zip(self._layers, all_weights, strict=True):
@@ -95,7 +95,7 @@ class Memory:
         Each (elements, 3, 3), by points along the arc. The weights of a point on itself are
         `own_weights`, and 0 here.
         """
-        columns, rows = self.strip.columns, self.strip.depths.owner.size
+        columns, rows = self.strip.columns, self.strip.depths.row_layers.size
         out = np.zeros((2, columns, rows, 3, 3))
         here = np.arange(columns)
         for where, weights in self._layers:
@@ -107,7 +107,7 @@ class Memory:
     @cached_property
     def own_weights(self) -> Array:
         """Weight of the value at each Gauss point on itself, (elements, 9)."""
-        rows = self.strip.depths.owner.size
+        rows = self.strip.depths.row_layers.size
         out = np.zeros((3 * self.strip.columns, rows))
         for where, weights in self._layers:
             out[:, where] = np.diagonal(weights)[:, None]

@@ -56,7 +56,7 @@ class RelaxingStress:
         shear, lame, rest = constants
         volume = None
         if memory.is_compressible:
-            weighted, inverse = memory.strip.products
+            weighted, inverse = memory.strip.projection
             x_s, x_z, y_s, y_z = deformation
             ratio = x_s * y_z - x_z * y_s
             mean = (inverse @ (weighted @ ratio[..., None]))[..., 0] @ LINEAR.T
@@ -96,12 +96,12 @@ class RelaxingStress:
     def _volume_derivative(self) -> Array:
         """Derivative of J by the displacements of an element, (elements, 9, 2, 9)."""
         x_s, x_z, y_s, y_z = self.deformation[..., None]
-        by_s, by_z = self.memory.strip.shapes
+        by_s, by_z = self.memory.strip.shape_derivatives
         return np.stack([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-2)
 
     def _projected_volume_derivative(self) -> Array:
         """Derivative of the projected J, (elements, 9, 18)."""
-        weighted, inverse = self.memory.strip.products
+        weighted, inverse = self.memory.strip.projection
         swell = self._volume_derivative.reshape(*self._ratio.shape, 18)
         return np.asarray(LINEAR @ (inverse @ (weighted @ swell)))
 
@@ -112,7 +112,7 @@ class RelaxingStress:
         Those of Green's strains E_ss and E_zz, of 2 E_sz and, with ``volume``, of m.
         """
         x_s, x_z, y_s, y_z = self.deformation[..., None]
-        by_s, by_z = self.memory.strip.shapes
+        by_s, by_z = self.memory.strip.shape_derivatives
         parts = 3 if self.volume is None else 4
         out = np.empty((*self._ratio.shape, parts, 2, 9))
         for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
@@ -158,7 +158,7 @@ class RelaxingStress:
         """Nodal forces of the relaxing part of T, (elements, 18)."""
         held = self.stress[..., :3] * self.memory.strip.volumes[..., None]
         x_s, x_z, y_s, y_z = self.deformation
-        by_s, by_z = self.memory.strip.shapes.transpose(0, 1, 3, 2)
+        by_s, by_z = self.memory.strip.shape_derivatives.transpose(0, 1, 3, 2)
         along, across, mixed = held[..., 0], held[..., 1], held[..., 2]
         out = np.empty((held.shape[0], 2, 9))
         for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
@@ -169,7 +169,7 @@ class RelaxingStress:
     @property
     def geometric_stiffness(self) -> Array:
         """Geometric stiffness of the relaxing part of T, alike for x and y, (elements, 9, 9)."""
-        by_s, by_z = self.memory.strip.shapes
+        by_s, by_z = self.memory.strip.shape_derivatives
         held = (self.stress * self.memory.strip.volumes[..., None])[:, :, None]
         pulled = held[..., 0] * by_s + held[..., 2] * by_z
         pushed = held[..., 1] * by_z + held[..., 2] * by_s
@@ -234,7 +234,11 @@ class RelaxingTangent:
         the result, (unknowns, 4 band + 1), has twice as many above it.
         """
         strip = self.memory.strip
-        band, count, ahead = strip.band, self.strain_derivative.shape[0], strip.depths.owner.size
+        band, count, ahead = (
+            strip.band,
+            self.strain_derivative.shape[0],
+            strip.depths.row_layers.size,
+        )
         out = np.zeros((strip.size, 4 * band + 1))
         out[:, band:] = stored
         entries = []
@@ -261,6 +265,6 @@ class RelaxingTangent:
         """Return the changes of pressures (elements, 3) that come from other Gauss points."""
         if self.volume_slope is None:
             return 0.0
-        weighted, inverse = self.memory.strip.products
+        weighted, inverse = self.memory.strip.projection
         held = (self._changes_by_others(local)[..., 3] * self.volume_slope)[..., None]
         return np.asarray((inverse @ (weighted @ held))[..., 0])

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rollnip.finite._smooth import Smoothing
+from rollnip.finite._low_pass import LowPass
 from rollnip.finite._spline import Spline
 from rollnip.finite.columns import Columns
 from rollnip.finite.equilibrium import Body
@@ -162,8 +162,8 @@ class FiniteResponse:
             _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
         )
         self._linear_error: Array | None = None
-        self._smoothing: Smoothing | None = None
-        self._smoothed_for: Array | None = None
+        self._low_pass: LowPass | None = None
+        self._low_pass_made_for: Array | None = None
         self._last_correction: tuple[Spline, ...] | None = None
         self.rough: tuple[Spline, ...] = ()
         self.is_found = True
@@ -235,7 +235,7 @@ class FiniteResponse:
         self.is_found, self._mesh = True, mesh
         self.rough = self._beyond_linear(mesh, roughly=roughly)
         start, stop = places[loaded][[0, -1]]
-        self._last_correction = self._smoothing_for(float(start), float(stop))(self.rough)
+        self._last_correction = self._low_pass_for(float(start), float(stop))(self.rough)
         return self._last_correction
 
     def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
@@ -246,20 +246,20 @@ class FiniteResponse:
         if not roughly or self._linear_error is None or self._linear_error.shape != u.shape:
             self._linear_error = self._error_in_linear_theory(mesh, x, surface.arcs[near])
         u -= self._linear_error + mesh.applied.linear_displacement(self._linear, x)
-        through = Spline.bending if self._columns.skin < np.inf else Spline.through
-        return tuple(through(x, row) for row in u)
+        spline = Spline.natural_quintic if self._columns.skin < np.inf else Spline.natural_cubic
+        return tuple(spline(x, row) for row in u)
 
-    def _smoothing_for(self, start: float, stop: float) -> Smoothing:
+    def _low_pass_for(self, start: float, stop: float) -> LowPass:
         """Return the filter for a contact; the last one as long as that has about its size."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
         cut = self._cut_factor * self._coarse_factor * max(self._cut / half, self._columns.cut)
-        given, last = np.array([middle, half, 1.0 / cut]), self._smoothed_for
+        given, last = np.array([middle, half, 1.0 / cut]), self._low_pass_made_for
         sizes = np.array([half, half, 1.0 / cut])
         if last is None or np.any(np.abs(given - last) > _SAME_SIZE * sizes):
-            self._smoothed_for = given
-            self._smoothing = Smoothing.of(middle, min(_NEAR * half, self._near), cut)
-        assert self._smoothing is not None
-        return self._smoothing
+            self._low_pass_made_for = given
+            self._low_pass = LowPass.of(middle, min(_NEAR * half, self._near), cut)
+        assert self._low_pass is not None
+        return self._low_pass
 
     def _error_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
         """Return the discretisation error of the mesh in linear theory, (2, n); set `extra_heat`.
@@ -395,5 +395,5 @@ class _LoadedMesh:
 
 def _no_correction(nodes: Array) -> tuple[Spline, Spline]:
     """Return corrections that are zero."""
-    flat = Spline.through(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
+    flat = Spline.natural_cubic(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
     return flat, flat

@@ -27,7 +27,7 @@ Masked = tuple[Energy, NDArray[np.bool_]]
 
 
 @dataclass(frozen=True)
-class _Law:
+class _ElementMaterials:
     """Material of every element.
 
     Attributes
@@ -44,7 +44,7 @@ class _Law:
     energies: list[Masked]
 
     @classmethod
-    def of(cls, strip: Strip) -> _Law:
+    def of(cls, strip: Strip) -> _ElementMaterials:
         materials = [layer.material for layer in strip.depths.roller.layers]
         given = [material.energy or NeoHookean() for material in materials]
         different = list(dict.fromkeys(given))
@@ -88,14 +88,14 @@ def element_fields(
     volume, with half the product of relaxing stress and strain [MPa].
     """
     strip, relaxing = body.strip, body.relaxing_stress(state)
-    law = _Law.of(strip)
+    law = _ElementMaterials.of(strip)
     local = strip.local(state.displacement).reshape(-1, 2, 9).transpose(0, 2, 1)
     arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
     at = np.stack([along, down], axis=-1)
     c, stored = _volume_law(strip, law, state, at)
     held = None
     if relaxing is not None:
-        held = _projected(strip, _relaxed(law, relaxing), at)
+        held = _projected(strip, _relaxing_at_points(law, relaxing), at)
         c, stored = c + held[..., 3], stored + held[..., 5]
     stretch = np.hypot(hoop[..., 0], hoop[..., 1])
     tangent = hoop / stretch[..., None]
@@ -104,7 +104,7 @@ def element_fields(
     thinning = ratio / stretch
     stress, axial, energy = _stresses(law, (hoop, inward, ratio), c)
     if held is not None:
-        stress += _pushed(held, hoop, inward) / ratio[..., None]
+        stress += _push_forward(held, hoop, inward) / ratio[..., None]
         axial += held[..., 4] / ratio
     curvature = strip.depths.roller.curvature
     if near is None:
@@ -123,7 +123,7 @@ def element_fields(
         0.5 * np.arctan2((inward * tangent).sum(axis=-1), thinning),
         energy + stored,
     ]
-    shape = (strip.columns, strip.depths.owner.size, along.size)
+    shape = (strip.columns, strip.depths.row_layers.size, along.size)
     return place.reshape(shape), np.stack(parts).reshape(-1, *shape)
 
 
@@ -133,7 +133,7 @@ def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Ar
     The former two (elements, points) [mm], the others (elements, points, 2) with x and y.
     """
     (n_s, d_s), (n_z, d_z) = quadratics(along), quadratics(down)
-    z, rows = strip.depths.ends, strip.depths.owner.size
+    z, rows = strip.depths.ends, strip.depths.row_layers.size
     half_s = np.repeat(0.5 * np.diff(strip.ends), rows)[:, None]
     half_z = np.tile(0.5 * np.diff(z), strip.columns)[:, None]
     arc = np.repeat(strip.arcs[1::2], rows)[:, None] + half_s * along
@@ -182,7 +182,9 @@ def _polar(angle: Array, moved: Array) -> tuple[Array, Array]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[Array, Array]:
+def _volume_law(
+    strip: Strip, law: _ElementMaterials, state: MeshState, at: Array
+) -> tuple[Array, Array]:
     """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at points ``at`` (points, 2)."""
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     c = state.pressure @ basis - law.rest * law.shear
@@ -193,7 +195,7 @@ def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[A
 
     def projected(values: Array) -> Array:
         sums = (strip.volumes * values) @ LINEAR
-        return np.asarray((strip.products[1] @ sums[..., None])[..., 0])
+        return np.asarray((strip.projection[1] @ sums[..., None])[..., 0])
 
     mean = projected(ratio) @ LINEAR.T
     slope, stored = np.empty(mean.shape), np.empty(mean.shape)
@@ -204,7 +206,9 @@ def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[A
     return np.where(law.rigid, c, soft), np.where(law.rigid, 0.0, projected(stored) @ basis)
 
 
-def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, Array, Array]:
+def _stresses(
+    law: _ElementMaterials, deformed: tuple[Array, ...], c: Array
+) -> tuple[Array, Array, Array]:
     """Return the Cauchy stress as xx, yy, xy, that along the axis, and psi less U."""
     hoop, inward, ratio = deformed
     left = np.stack(
@@ -230,7 +234,7 @@ def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, 
     return stress, axial, psi
 
 
-def _relaxed(law: _Law, relaxing: RelaxingStress) -> Array:
+def _relaxing_at_points(law: _ElementMaterials, relaxing: RelaxingStress) -> Array:
     """Return what relaxing stresses amount to at the Gauss points, (elements, 9, 6).
 
     The relaxing parts of T_ss, T_zz and T_sz, what is added to c, that of T_yy along the axis, and
@@ -256,12 +260,12 @@ def _relaxed(law: _Law, relaxing: RelaxingStress) -> Array:
 
 def _projected(strip: Strip, values: Array, at: Array) -> Array:
     """Return values at Gauss points, projected on linear functions, at points (points, 2)."""
-    weighted, inverse = strip.products
+    weighted, inverse = strip.projection
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     return np.asarray(basis.T @ (inverse @ (weighted @ values)))
 
 
-def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
+def _push_forward(held: Array, hoop: Array, inward: Array) -> Array:
     """Return F T F^T as xx, yy, xy, of the relaxing parts of T."""
     ss, zz, sz = (held[..., part] for part in range(3))
     out = np.empty((*ss.shape, 3))

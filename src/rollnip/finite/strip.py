@@ -26,7 +26,8 @@ _ALONG, _DOWN = (grid.ravel() for grid in np.meshgrid(_GAUSS[0], _GAUSS[0], inde
 _AREA = np.multiply.outer(_GAUSS[1], _GAUSS[1]).ravel()
 LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
 """Basis of volume and pressure in an element, (9, 3): 1 and both coordinates, at Gauss points."""
-_FOLDS = 3.5  # log of the height of elements as deep as the nip is wide, over that at the surface
+# Logarithm of the height of elements as deep as the nip is wide, over that at the surface.
+_LOG_HEIGHT_RATIO = 3.5
 _PER_FOLD = 1.14  # elements per unit of that logarithm
 
 
@@ -57,12 +58,12 @@ class Depths:
     ----------
     roller : with layers on a rigid core.
     ends : (elements + 1,) depths of the ends of elements, from the surface [mm].
-    owner : (elements,) the layer of each.
+    row_layers : (elements,) the layer of each.
     """
 
     roller: Roller
     ends: Array
-    owner: Indices
+    row_layers: Indices
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Depths:
@@ -70,14 +71,14 @@ class Depths:
 
         Ends of elements lie on the interfaces of layers.
         """
-        little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_FOLDS)
+        little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_LOG_HEIGHT_RATIO)
         marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
-        ends, owner = [0.0], []
+        ends, layers = [0.0], []
         for layer, (top, bottom) in enumerate(pairwise(marks)):
             count = max(1, int(np.ceil(_PER_FOLD * (bottom - top))))
             ends += (little * np.expm1(np.linspace(top, bottom, count + 1)))[1:].tolist()
-            owner += [layer] * count
-        return cls(roller, np.array(ends), np.array(owner))
+            layers += [layer] * count
+        return cls(roller, np.array(ends), np.array(layers))
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,7 @@ class Strip:
     @property
     def rows(self) -> int:
         """Number of free nodes in each column of nodes: all but the one on the core."""
-        return 2 * self.depths.owner.size
+        return 2 * self.depths.row_layers.size
 
     @property
     def size(self) -> int:
@@ -117,7 +118,7 @@ class Strip:
         They are where that makes the band narrower, as with many layers. With memory they are
         ordered by columns, as `near_slots` wants them.
         """
-        count = self.depths.owner.size
+        count = self.depths.row_layers.size
         by_rows = count > self.columns and not self.depths.roller.is_viscoelastic
         return self.columns, count, by_rows
 
@@ -159,7 +160,7 @@ class Strip:
 
         The first axis goes along the surface, the last over the depth of an element.
         """
-        rows = self.depths.owner.size
+        rows = self.depths.row_layers.size
         grid = values.reshape(self.columns, rows, 3, -1)
         return grid.transpose(0, 2, 1, 3).reshape(3 * self.columns, rows, -1)
 
@@ -183,7 +184,7 @@ class Strip:
         return np.asarray(_AREA * self._lengths[0] * self._lengths[1])
 
     @cached_property
-    def shapes(self) -> Array:
+    def shape_derivatives(self) -> Array:
         """Derivatives of the shape functions by arc and depth, (2, elements, 9 points, 9 nodes)."""
         return np.asarray(_BY[:, None] * self._rates[..., None])
 
@@ -214,29 +215,29 @@ class Strip:
 
     def forces(self, stress: Array) -> Array:
         """Return the nodal forces of nominal stresses (4, elements, 9), (elements, 18)."""
-        return np.asarray(self._on_sides(stress) @ _WEIGHTED).reshape(-1, 18)
+        return np.asarray(self._times_sides(stress) @ _WEIGHTED).reshape(-1, 18)
 
-    def in_basis(self, stress: Array) -> Array:
+    def forces_by_basis(self, stress: Array) -> Array:
         """Return the nodal forces of stresses times each function of `LINEAR`, (elements, 3, 18).
 
         ``stress`` (4, elements, 9) is a nominal one.
         """
-        made = (self._on_sides(stress) @ _IN_BASIS).reshape(-1, 2, 3, 9)
+        made = (self._times_sides(stress) @ _IN_BASIS).reshape(-1, 2, 3, 9)
         return np.ascontiguousarray(made.transpose(0, 2, 1, 3)).reshape(-1, 3, 18)
 
-    def _on_sides(self, stress: Array) -> Array:
+    def _times_sides(self, stress: Array) -> Array:
         """Return stresses times half the length of the side that they act on, (2 elements, 18)."""
         out = np.empty((self.layer.size, 2, 2, 9))
         by_part = stress.reshape(2, 2, -1, 9)
         np.multiply(by_part, self._lengths[::-1], out=out.transpose(1, 2, 0, 3))
         return out.reshape(-1, 18)
 
-    def isotropic(self, modulus: Array) -> Array:
+    def gradient_stiffness(self, modulus: Array) -> Array:
         """Return int modulus grad N_a . grad N_b, (elements, 9, 9); modulus (elements, 9)."""
         weight = modulus * self._lengths[::-1] * self._rates
         return np.asarray(weight.transpose(1, 0, 2).reshape(-1, 18) @ _SQUARES).reshape(-1, 9, 9)
 
-    def turning(self, c: Array) -> Array:
+    def cofactor_stiffness(self, c: Array) -> Array:
         """Return int c (N_a,s N_b,z - N_a,z N_b,s), (elements, 9, 9); c (elements, 9).
 
         The Jacobian cancels: the integral does not depend on the sizes of an element.
@@ -244,20 +245,20 @@ class Strip:
         return np.asarray(c @ _CROSS).reshape(-1, 9, 9)
 
     @cached_property
-    def products(self) -> tuple[Array, Array]:
+    def projection(self) -> tuple[Array, Array]:
         """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its mass matrix.
 
         (inverse @ weighted) projects values at Gauss points on linear functions.
         """
         weighted = LINEAR.T * self.volumes[:, None, :]
-        rows, half = self.depths.owner.size, self._grid[0]
+        rows, half = self.depths.row_layers.size, self._grid[0]
         column = np.linalg.inv(weighted[:rows] @ LINEAR) * half[0]  # all columns are alike in shape
         return weighted, np.tile(column, (self.columns, 1, 1)) / half[:, None, None]
 
     @property
     def unknowns(self) -> Indices:
         """Numbers of the unknowns of every element, (elements, 18): x, then y; -1 on the core."""
-        return numbering.unknowns(self.columns, self.depths.owner.size)
+        return numbering.unknowns(self.columns, self.depths.row_layers.size)
 
     @property
     def slots(self) -> Indices:
@@ -273,7 +274,7 @@ class Strip:
         return numbering.lower_slots(*self._kind)
 
     @property
-    def stored(self) -> int:
+    def storage_size(self) -> int:
         """Number of entries in the banded storage of a matrix."""
         return (3 * self.band + 1) * self.size
 
@@ -287,7 +288,7 @@ class Strip:
     @cached_property
     def layer(self) -> Indices:
         """The layer of every element."""
-        return np.tile(self.depths.owner, self.columns)
+        return np.tile(self.depths.row_layers, self.columns)
 
     @cached_property
     def surface(self) -> Surface:

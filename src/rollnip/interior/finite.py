@@ -122,7 +122,7 @@ class FiniteFields:
                 at = places[row, line]
                 inside = (x >= at[0]) & (x <= at[-1])
                 for part in range(len(PARTS)):
-                    found = Spline.through(at, values[part, row, line])(x)
+                    found = Spline.natural_cubic(at, values[part, row, line])(x)
                     out[part, line] += sign * np.where(inside, found, 0.0)
         return out
 
@@ -246,7 +246,7 @@ def _depths(roller: Roller, half_width: float, split: int) -> Depths:
     depths = Depths.of(roller, half_width)
     parts = np.linspace(0.0, 1.0, split + 1)[1:]
     inner = depths.ends[:-1, None] + np.diff(depths.ends)[:, None] * parts
-    return Depths(roller, np.append(0.0, inner.ravel()), np.repeat(depths.owner, split))
+    return Depths(roller, np.append(0.0, inner.ravel()), np.repeat(depths.row_layers, split))
 
 
 def _columns(roller: Roller, loaded: Array, columns: int) -> Array:

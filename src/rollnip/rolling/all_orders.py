@@ -201,7 +201,7 @@ def _weighted_sum(weights: Array, fields: Sequence[SecondFields]) -> SecondField
     functions: list[Field | None] = []
     for several in zip(*(one.functions for one in fields), strict=True):
         splines = [f for f in several if isinstance(f, Spline)]
-        functions.append(Spline.mean(weights, splines) if splines else None)
+        functions.append(Spline.weighted_sum(weights, splines) if splines else None)
     rough: list[Field | None] = []
     for several in zip(*(one.rough for one in fields), strict=True):
         given = tuple(f for f in several if f is not None)

@@ -169,7 +169,7 @@ def _stretch_beyond(
     beyond = stretch_excess(x, nip, "finite", flat + correction.at(x))
     beyond -= linear_stretch(x[1:] - x[:-1], hoops, *flat.rows)
     total = np.append(0.0, np.cumsum(beyond[side]))[np.searchsorted(x, columns.x)]
-    return Stretch(((1.0, Spline.through(columns.x, total)),))
+    return Stretch(((1.0, Spline.natural_cubic(columns.x, total)),))
 
 
 def _equilibrium(response: FiniteResponse | None) -> Equilibrium | None:

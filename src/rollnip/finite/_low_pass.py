@@ -16,7 +16,7 @@ _PER_CUT = 1.0  # grid points per radian of the wave at the cut-off, whose ampli
 
 
 @dataclass(frozen=True)
-class Smoothing:
+class LowPass:
     """A low-pass filter that multiplies waves of the wave number k by 1 / (1 + (k/cut)^4).
 
     It solves (1 + w D^T D) smooth = given, with the second differences D at all inner points of an
@@ -32,7 +32,7 @@ class Smoothing:
     factors: Array
 
     @classmethod
-    def of(cls, middle: float, ends: float, cut: float) -> Smoothing:
+    def of(cls, middle: float, ends: float, cut: float) -> LowPass:
         """Return the filter for functions between middle - ends and middle + ends [mm].
 
         ``cut`` is the wave number whose amplitude is halved [1/mm].
@@ -56,4 +56,4 @@ class Smoothing:
         values = np.stack([f(self.x) for f in functions], axis=1)
         made, info = lapack.dpbtrs(self.factors, values)
         assert info == 0
-        return tuple(Spline.through(self.x, column) for column in made.T)
+        return tuple(Spline.natural_cubic(self.x, column) for column in made.T)

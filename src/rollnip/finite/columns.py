@@ -39,7 +39,7 @@ _REACH_OVER_LAG = 5.0  # the same over the shear lag of a skin; the larger of th
 _LARGEST_ARC = 2.5  # largest arc of the mesh, over the radius
 _LARGEST_REACH_BY_LAG = 2.0 * pi  # largest reach on account of the shear lag, over the radius
 _SKIN_CUT = 8.0  # largest wave number of the correction under a very stiff skin, times `skin`
-_STIFF_RATIO = 10.0  # ratio of the moduli of two layers at which the effect of the stiffer one is half
+_STIFF_RATIO = 10.0  # ratio of moduli of two layers that halves the effect of the stiffer one
 _LEAST_THICKNESS = 0.5  # see above
 
 

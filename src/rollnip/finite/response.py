@@ -211,8 +211,8 @@ class FiniteResponse:
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         rate : speed of the undeformed surface over that of linear theory.
-        roughly : save time while tractions are far from their solution: the last mesh is used even
-            if the contact has moved a little more, and its errors as they were; half the waves.
+        roughly : save time while tractions are far from their solution: keep the last mesh even if
+            the contact has moved a little more, and its error as last evaluated; half the cut-off.
         has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
         """
         self._gmres_tolerance = _COARSE_RESIDUAL if roughly else GMRES_TOLERANCE
@@ -233,12 +233,12 @@ class FiniteResponse:
             self.rough = self._last_correction = self._last_correction or _no_correction(nodes)
             return self._last_correction
         self.is_found, self._mesh = True, mesh
-        self.rough = self._beyond_linear(mesh, roughly=roughly)
+        self.rough = self._unfiltered_correction(mesh, roughly=roughly)
         start, stop = places[loaded][[0, -1]]
         self._last_correction = self._low_pass_for(float(start), float(stop))(self.rough)
         return self._last_correction
 
-    def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
+    def _unfiltered_correction(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import beyond
+from rollnip.rolling import all_orders
 
 SECOND = rn.Model(geometry="second")
 
@@ -141,7 +141,7 @@ def test_how_far_turns_got_is_said():
         r'the first-order ones\)\. All figures are those of geometry "second"\.',
         solution.warnings[0],
     )
-    assert int(said[1]) == beyond.MOST_CORRECTIONS
+    assert int(said[1]) == all_orders.MOST_CORRECTIONS
     assert float(said[2]) > 10.0 * solution.model.tolerance
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import rollnip as rn
 import rollnip.finite.columns as columns_module
-from rollnip.finite import Body, Depths, FiniteResponse, Strip, nodal
+from rollnip.finite import Body, Depths, FiniteResponse, Strip, linear_between_nodes
 from rollnip.finite.columns import Columns
 from rollnip.influence import covering_window, surface_kernels
 
@@ -77,7 +77,7 @@ def test_a_mesh_reaches_as_far_as_a_skin_carries_forces():
         columns = Columns(columns.longest, further * columns.reach, columns.skin)
         places, loaded = columns.places(NODES, pressure + 1e-9)
         body = Body(Strip(Depths.of(FOIL, HALF), places))
-        found = body.linear_displacements(nodal(NODES, pressure, shear))
+        found = body.linear_displacements(linear_between_nodes(NODES, pressure, shear))
         moved.append(body.strip.on_surface(found)[::2, 0][loaded][NODES.size // 6])
     assert moved[0] == pytest.approx(moved[1], rel=2e-3)
 
@@ -97,7 +97,7 @@ def test_contacts_of_other_nodes_one_after_the_other():
     def response(used, half, count):
         nodes = half * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, count))
         pressure = 0.05 * np.sqrt(1.0 - (nodes[1:-1] / half) ** 2)
-        return used.displacement(nodes, pressure, 0.2 * pressure)
+        return used.correction(nodes, pressure, 0.2 * pressure)
 
     used, x = response_of(FOIL), np.linspace(-HALF, HALF, 9)
     for half, count in ((1.5, 41), (1.4, 31)):

@@ -43,7 +43,7 @@ def settled(body, pressure, shear, parts=4):
     """Reach a load in parts, to rounding."""
     state = body.at_rest()
     for part in np.linspace(0.0, 1.0, parts + 1)[1:]:
-        state = body.equilibrium(nearly_even(part * pressure, part * shear), state, still=1e-8)
+        state = body.equilibrium(nearly_even(part * pressure, part * shear), state, tolerance=1e-8)
     return state
 
 
@@ -148,12 +148,12 @@ def test_steps_follow_the_derivative(poisson, energy):
         bump = 0.15 * np.exp(-(x**2))
         return bump, 0.5 * bump, -2.0 * x * bump, -x * bump
 
-    target = body.equilibrium(tractions, body.at_rest(), still=1e-10).displacement
+    target = body.equilibrium(tractions, body.at_rest(), tolerance=1e-10).displacement
     near = MeshState(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(3):
         fresh = MeshState(near.displacement, near.pressure)  # without a derivative
-        near = body.equilibrium(tractions, fresh, still=np.inf)
+        near = body.equilibrium(tractions, fresh, tolerance=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-2
     assert errors[1] < 30.0 * errors[0] ** 2 + 2e-6  # volumes of incompressible ones: 1e-6 a step
@@ -168,7 +168,7 @@ def test_an_incompressible_covering_keeps_its_volume():
         bump = 0.2 * np.exp(-(x**2))
         return bump, bump, -2.0 * x * bump, -2.0 * x * bump
 
-    state = body.equilibrium(tractions, body.at_rest(), still=1e-10)
+    state = body.equilibrium(tractions, body.at_rest(), tolerance=1e-10)
     x_s, x_z, y_s, y_z = body.strip.deformation(state.displacement)
     volume = body.strip.volumes
     means = ((x_s * y_z - x_z * y_s) * volume).sum(axis=1) / volume.sum(axis=1)

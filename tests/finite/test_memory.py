@@ -4,10 +4,18 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.finite import Body, Depths, MeshState, Strip, deformed_surface, linear_surface, nodal
+from rollnip.finite import (
+    Body,
+    Depths,
+    MeshState,
+    Strip,
+    deformed_surface,
+    linear_between_nodes,
+    linear_surface,
+)
 from rollnip.finite.memory import Memory
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.viscous import Relaxing
+from rollnip.finite.relaxing_stress import RelaxingTangent
 from rollnip.influence import covering_window, displacement_under, surface_kernels
 from rollnip.materials import memory_integral, relaxation_modulus
 
@@ -54,7 +62,7 @@ def test_a_wave_relaxes_by_the_complex_modulus(material):
     def packet(s):
         return np.exp(-(s**2) / 18.0) * np.cos(1.3 * s)
 
-    found = Memory(body.strip, SPEED).relaxing(packet(arcs)[..., None])[..., 0]
+    found = Memory(body.strip, SPEED).history_integral(packet(arcs)[..., None])[..., 0]
     s = np.arange(-400.0, 400.0, 0.02)
     k = 2.0 * np.pi * np.fft.fftfreq(s.size, 0.02)
     factor = material.modulus_at(-1j * k * SPEED) / material.relaxed_modulus - 1.0
@@ -87,7 +95,7 @@ def test_linear_elements_are_the_linear_theory(material):
     under = HALF * np.sin(np.linspace(-1.57, 1.57, 33))
     places = np.concatenate([-beside[::-1], under, beside])
     body = Body(Strip(Depths.of(roller, HALF), places), SPEED)
-    u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
+    u_x, u_z = linear_surface(body, body.linear_displacements(linear_between_nodes(nodes, p, q)))
     inside = np.abs(places) < HALF
     window = covering_window((roller, BARE), SPEED)
     surface = surface_kernels(roller, SPEED, "second", window)
@@ -122,7 +130,7 @@ def test_slow_and_fast_rolling_are_elastic(energy, poisson):
             return bump(x, size)
 
         found, wanted = (
-            body.equilibrium(load, body.at_rest(), still=1e-7).displacement
+            body.equilibrium(load, body.at_rest(), tolerance=1e-7).displacement
             for body in (slow, still)
         )
         found, wanted = slow.strip.on_surface(found)[8:-8], slow.strip.on_surface(wanted)[8:-8]
@@ -135,12 +143,12 @@ def test_slow_and_fast_rolling_are_elastic(energy, poisson):
 def test_steps_follow_the_derivative(poisson, energy):
     """Steps of Newton's method double the correct digits: memory is in the derivative whole."""
     body = Body(strip(covered(prony(1.0, poisson, energy)), columns=24), SPEED)
-    target = body.equilibrium(bump, body.at_rest(), still=1e-10).displacement
+    target = body.equilibrium(bump, body.at_rest(), tolerance=1e-10).displacement
     near = MeshState(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(2):
         fresh = MeshState(near.displacement, near.pressure)  # without a derivative
-        near = body.equilibrium(bump, fresh, still=np.inf)
+        near = body.equilibrium(bump, fresh, tolerance=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-3
     assert errors[1] < 3.0 * errors[0] ** 2 + 1e-6
@@ -161,7 +169,7 @@ def test_a_sheared_layer_creeps_as_linear_theory_says():
         q = peak * np.exp(-(x**2) / 18.0)
         return 0.0 * x, q, 0.0 * x, -x / 9.0 * q
 
-    state = body.equilibrium(load, body.at_rest(), still=1e-7)
+    state = body.equilibrium(load, body.at_rest(), tolerance=1e-7)
     surface = deformed_surface(body, state)
     s = np.arange(-400.0, 400.0, 0.02)
     k = 2.0 * np.pi * np.fft.fftfreq(s.size, 0.02)
@@ -186,7 +194,7 @@ def test_three_ways_to_the_heat(number, poisson):
     after, before = -np.geomspace(40.0, 4.2, 24), np.geomspace(4.5, 12.0, 5)
     ends = np.concatenate([after, np.linspace(-4.0, 4.0, 65), before])
     body = Body(Strip(Depths.of(covered(material), HALF), ends), SPEED)
-    state = body.equilibrium(bump, body.at_rest(), still=1e-8)
+    state = body.equilibrium(bump, body.at_rest(), tolerance=1e-8)
     heat = heat_inside(body, state.displacement, bump)
     assert heat > 0.0
     assert work_of_stresses(body, state) == pytest.approx(heat, rel=1e-2)
@@ -197,13 +205,13 @@ def test_three_ways_to_the_heat(number, poisson):
 
 def work_of_stresses(body, state):
     """Int T : dE of the relaxing part of the stress along every row, by trapezoids."""
-    viscous, strip = body._fields(state).viscous, body.strip
+    viscous, strip = body._fields(state).relaxing, body.strip
     x_s, x_z, y_s, y_z = viscous.deformation
     strain = [0.5 * (x_s**2 + y_s**2 - 1.0), 0.5 * (x_z**2 + y_z**2 - 1.0), x_s * x_z + y_s * y_z]
     if viscous.volume is not None:
         strain.append(viscous.volume[1])
     count = len(strain)
-    held = strip.by_column(viscous.stress).reshape(-1, strip.depths.owner.size, 3, count)
+    held = strip.by_column(viscous.stress).reshape(-1, strip.depths.row_layers.size, 3, count)
     moved = np.diff(strip.by_column(np.stack(strain, axis=-1)).reshape(held.shape), axis=0)
     work = (0.5 * (held[1:] + held[:-1]) * moved).sum(axis=(0, 3))
     points, weights = np.polynomial.legendre.leggauss(3)
@@ -222,7 +230,7 @@ def broken_strands(body, state, shear, time):
     (G/2 tau) (tr CA + tr (CA)^-1 - 4) >= 0; that of volume, lambda (m - n)^2/2, by twice it over
     tau.
     """
-    viscous = body._fields(state).viscous
+    viscous = body._fields(state).relaxing
     x_s, x_z, y_s, y_z = viscous.deformation
     c_ss, c_zz, c_sz = x_s**2 + y_s**2, x_z**2 + y_z**2, x_s * x_z + y_s * y_z
     volume = c_ss * c_zz - c_sz**2
@@ -240,7 +248,7 @@ def broken_strands(body, state, shear, time):
 def test_an_elastic_covering_makes_no_heat():
     """To the mesh: a thousandth of the power that the shear passes on."""
     body = Body(strip(covered(rn.Elastic(modulus=1.0, poisson=0.5)), columns=96))
-    state = body.equilibrium(bump, body.at_rest(), still=1e-8)
+    state = body.equilibrium(bump, body.at_rest(), tolerance=1e-8)
     passed_on = 0.075 * np.sqrt(np.pi)
     assert abs(heat_inside(body, state.displacement, bump)) < 1e-3 * passed_on
     assert abs(linear_heat_inside(body, body.linear_displacements(bump), bump)) < 1e-3 * passed_on
@@ -253,8 +261,8 @@ def test_a_stiff_glass_takes_few_products(monkeypatch, number):
     With those of each point alone a step took 1200 products and more, and came to no end.
     """
     products = []
-    far = Memory.from_far
-    monkeypatch.setattr(Memory, "from_far", lambda *given: products.append(1) or far(*given))
+    far = Memory.far_integral
+    monkeypatch.setattr(Memory, "far_integral", lambda *given: products.append(1) or far(*given))
     solid = rn.StandardLinearSolid(
         modulus=1.0, stiffening=299.0, relaxation_time=number * HALF / SPEED, poisson=0.49
     )
@@ -270,21 +278,21 @@ def test_near_and_far_memory_are_the_whole():
     """Stored near forces and those from far are all that come from other points."""
     body = Body(strip(covered(prony(0.3, 0.4)), columns=12, reach=3.0), SPEED)
     state = body.equilibrium(bump, body.at_rest())
-    relaxing = Relaxing.of(body.relaxing(state))
+    relaxing = RelaxingTangent.of(body.relaxing_stress(state))
     size, band = body.strip.size, body.strip.band
-    stored = relaxing.with_near(np.zeros((size, 3 * band + 1)))
+    stored = relaxing.with_near_columns(np.zeros((size, 3 * band + 1)))
     near = np.zeros((size, size))
     for column in range(size):
         row = np.arange(max(0, column - 2 * band), min(size, column + band + 1))
         near[row, column] = stored[column, 3 * band + row - column]
     moved = np.random.default_rng(3).normal(size=size)
     local = np.append(moved, 0.0)[body.strip.unknowns]
-    change = (relaxing.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
+    change = (relaxing.stress_derivative @ local[..., None]).reshape(local.shape[0], 9, -1)
     memory = relaxing.memory
-    others = memory.relaxing(change) - memory.at_once[..., None] * change
+    others = memory.history_integral(change) - memory.own_weights[..., None] * change
     force = np.zeros(size + 1)
-    made = (others.reshape(local.shape[0], 1, -1) @ relaxing.by)[:, 0]
+    made = (others.reshape(local.shape[0], 1, -1) @ relaxing.strain_derivative)[:, 0]
     np.add.at(force, body.strip.unknowns, made)
-    whole = near @ moved + relaxing.from_far(moved)
+    whole = near @ moved + relaxing.far_forces(moved)
     np.testing.assert_allclose(whole, force[:-1], atol=1e-10 * np.abs(force[:-1]).max())
-    assert np.abs(relaxing.from_far(moved)).max() < 0.5 * np.abs(force[:-1]).max()
+    assert np.abs(relaxing.far_forces(moved)).max() < 0.5 * np.abs(force[:-1]).max()

@@ -9,8 +9,8 @@ from rollnip.finite import (
     Depths,
     FiniteResponse,
     Strip,
+    linear_between_nodes,
     linear_surface,
-    nodal,
     response,
 )
 from rollnip.finite.state import MeshState
@@ -58,7 +58,7 @@ def test_linear_elements_are_the_linear_theory(roller):
     )
     places = np.concatenate([places, np.linspace(2.5, 40, 30)])
     body = Body(Strip(Depths.of(roller, HALF), places))
-    u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
+    u_x, u_z = linear_surface(body, body.linear_displacements(linear_between_nodes(nodes, p, q)))
     inside = np.abs(places) < HALF
     surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     xx, zz, xz = displacement_under(
@@ -74,7 +74,7 @@ def test_begins_as_the_second_order(roller):
     """At small strains all orders are the second one, which is derived by other means."""
     nodes, p, q = tractions(0.004)
     x = np.linspace(-0.9, 0.9, 19) * HALF
-    all_orders = np.stack([f(x) for f in response_of(roller).displacement(nodes, p, q)])
+    all_orders = np.stack([f(x) for f in response_of(roller).correction(nodes, p, q)])
     response = KernelCache().second(roller, None, HALF)
     surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
@@ -90,7 +90,7 @@ def test_a_material_that_stiffens_gives_less():
         for energy in (None, rn.Yeoh(0.5, 0.0)):
             rubber = rn.Elastic(modulus=1.0, poisson=0.5, energy=energy)
             response = response_of(covered(rn.Layer(2.0, rubber)))
-            u_z.append(response.displacement(nodes, p, q)[1](np.zeros(1))[0])
+            u_z.append(response.correction(nodes, p, q)[1](np.zeros(1))[0])
     assert u_z[1] < u_z[0] - 1e-3
     assert u_z[3] == pytest.approx(u_z[2], abs=2e-6)
 
@@ -100,10 +100,10 @@ def test_a_response_forgets_where_it_came_from():
     roller = COVERINGS["foam"]
     nodes, p, q = tractions(0.1)
     fresh, used = response_of(roller), response_of(roller)
-    used.displacement(1.1 * nodes - 0.2, 1.2 * p, -q)
+    used.correction(1.1 * nodes - 0.2, 1.2 * p, -q)
     x = np.linspace(-1.0, 1.0, 9) * HALF
     for _ in range(3):  # each leaves a part of its step to the next
-        both = [response.displacement(nodes, p, q) for response in (fresh, used)]
+        both = [response.correction(nodes, p, q) for response in (fresh, used)]
     for one, other in zip(*both, strict=True):
         np.testing.assert_allclose(one(x), other(x), atol=2e-5)
 
@@ -112,8 +112,8 @@ def test_a_mirrored_load_has_a_mirrored_answer():
     nodes, p, q = tractions(0.15)
     x = np.linspace(-1.2, 1.2, 13) * HALF
     u, v = (response_of(COVERINGS["rubber"]) for _ in range(2))
-    u_x, u_z = u.displacement(nodes, p, q)
-    v_x, v_z = v.displacement(-nodes[::-1], p[::-1], -q[::-1])
+    u_x, u_z = u.correction(nodes, p, q)
+    v_x, v_z = v.correction(-nodes[::-1], p[::-1], -q[::-1])
     np.testing.assert_allclose(u_x(x), -v_x(-x), atol=1e-6)
     np.testing.assert_allclose(u_z(x), v_z(-x), atol=1e-6)
 
@@ -121,18 +121,18 @@ def test_a_mirrored_load_has_a_mirrored_answer():
 def test_what_has_no_equilibrium_keeps_the_last_answer():
     nodes, p, q = tractions(0.1)
     response = response_of(COVERINGS["rubber"])
-    before = response.displacement(nodes, p, q)
+    before = response.correction(nodes, p, q)
     assert response.is_found
-    after = response.displacement(nodes, 1000.0 * p, 3000.0 * q)
+    after = response.correction(nodes, 1000.0 * p, 3000.0 * q)
     assert not response.is_found
     assert after is before
-    assert response.displacement(nodes, p, q) is not before
+    assert response.correction(nodes, p, q) is not before
     assert response.is_found
 
 
 def test_nothing_moves_without_pressure():
     nodes, p, q = tractions(0.1)
-    u_x, u_z = response_of(COVERINGS["rubber"]).displacement(nodes, 0.0 * p, 0.0 * q)
+    u_x, u_z = response_of(COVERINGS["rubber"]).correction(nodes, 0.0 * p, 0.0 * q)
     assert u_x(nodes) == pytest.approx(0.0)
     assert u_z(nodes) == pytest.approx(0.0)
 
@@ -143,12 +143,12 @@ def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
     The contact has moved by a hundredth of its width since the mesh was made, with dense columns
     where the edges were: 0.5 % of the largest correction.
     """
-    monkeypatch.setattr(response, "_SHARE", 0.0)
+    monkeypatch.setattr(response, "_STEP_TOLERANCE", 0.0)
     nodes, p, q = tractions(0.15)
     kept, anew = (response_of(COVERINGS["rubber"]) for _ in range(2))
-    kept.displacement(nodes - 0.0198 * HALF, p, q)
+    kept.correction(nodes - 0.0198 * HALF, p, q)
     x = np.linspace(-0.98, 0.98, 99) * HALF
-    old, new = (np.stack([f(x) for f in one.displacement(nodes, p, q)]) for one in (kept, anew))
+    old, new = (np.stack([f(x) for f in one.correction(nodes, p, q)]) for one in (kept, anew))
     assert np.any(old != new)
     np.testing.assert_allclose(old, new, atol=5e-3 * np.abs(new).max())
 
@@ -158,7 +158,7 @@ def test_a_roller_that_winds_up_on_a_thin_core_has_no_equilibrium(peak):
     """Columns pass each other, or none is left in front: this broke off the program."""
     wound = covered(rn.Layer(6.0, RUBBER), radius=6.1)
     response = response_of(wound)
-    response.displacement(*tractions(peak))
+    response.correction(*tractions(peak))
     assert not response.is_found
 
 
@@ -172,7 +172,7 @@ def test_a_state_is_carried_to_other_columns_as_it_is():
     there = MeshState(displacement, pressure).on_columns(coarse, fine)
     moved, pressed = there.displacement, there.pressure
     gradient, finer = coarse.gradient(displacement), fine.gradient(moved)
-    rows = depths.owner.size
+    rows = depths.row_layers.size
     weights = coarse.volumes, fine.volumes
     for wide, narrow in ((gradient[2], finer[2]), (pressure @ LINEAR.T, pressed @ LINEAR.T)):
         whole = (weights[0] * wide)[3 * rows : 4 * rows].reshape(rows, 9).sum(axis=1)
@@ -189,12 +189,16 @@ def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
     nodes, p, q = tractions(0.1)
     made = []
     for by_rows in (True, False):
-        kind = property(lambda strip, rows=by_rows: (strip.columns, strip.depths.owner.size, rows))
+        kind = property(
+            lambda strip, rows=by_rows: (strip.columns, strip.depths.row_layers.size, rows)
+        )
         body = Body(Strip(depths, np.linspace(-4.0, 4.0, 17)))
         assert body.strip.order is not None
         assert body.strip.band == 8 * 16 + 9
         monkeypatch.setattr(Strip, "_kind", kind)
-        acting = nodal(nodes, p, q)
-        made.append(body.equilibrium(acting, body.linear_state(acting), still=1e-9).displacement)
+        acting = linear_between_nodes(nodes, p, q)
+        made.append(
+            body.equilibrium(acting, body.linear_state(acting), tolerance=1e-9).displacement
+        )
         monkeypatch.undo()
     np.testing.assert_allclose(made[0], made[1], atol=1e-9 * np.abs(made[0]).max())

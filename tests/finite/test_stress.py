@@ -31,7 +31,7 @@ def deformed(material, radius, deform, pressure=0.0):
     moved = np.stack([x, y], axis=-1) @ (np.asarray(deform) - np.eye(2)).T
     state = MeshState(moved[:, :-1].ravel(), np.tile([pressure, 0.0, 0.0], (strip.layer.size, 1)))
     _, values = element_fields(Body(strip), state, np.array([0.3]), np.array([-0.4]), 1.0)
-    upper = slice(0, strip.depths.owner.size - 1)  # the last row is held by the core
+    upper = slice(0, strip.depths.row_layers.size - 1)  # the last row is held by the core
     return dict(zip(PARTS, values[:, 4, upper, 0], strict=True))
 
 

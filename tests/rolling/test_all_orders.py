@@ -7,7 +7,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.finite import FiniteResponse
-from rollnip.rolling import held, zone_meshes
+from rollnip.rolling import contact_stages, zone_meshes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -24,8 +24,8 @@ def counts(monkeypatch):
 
         return called
 
-    evaluation = counted("evaluations", FiniteResponse.displacement)
-    monkeypatch.setattr(FiniteResponse, "displacement", evaluation)
+    evaluation = counted("evaluations", FiniteResponse.correction)
+    monkeypatch.setattr(FiniteResponse, "correction", evaluation)
 
     def mesh_on(nodes, kernels, fine):
         """Count meshes with nodes at the ends of zones, not those on which zones are found."""
@@ -67,11 +67,11 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
 
     def refused(nip, model, kernels, half_width):
         held_by.append(kernels.held)
-        return kernels, SimpleNamespace(settled=False), held.Stage.COARSE
+        return kernels, SimpleNamespace(settled=False), contact_stages.ContactStage.COARSE
 
-    monkeypatch.setattr(held, "begin", refused)
+    monkeypatch.setattr(contact_stages, "first_contact", refused)
     latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))
     mean, last = (SimpleNamespace(held=object()) for _ in range(2))
     for both in ((last, last), (mean, last)):
-        held.restarted(None, None, both, latest)
+        contact_stages.restart(None, None, both, latest)
     assert held_by == [last.held, mean.held, last.held]

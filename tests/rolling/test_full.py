@@ -10,7 +10,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.paper import configuration, figure_4
-from rollnip.rolling import beyond, elements
+from rollnip.rolling import all_orders, corrections
 
 DATA = Path(__file__).parents[1] / "data"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -230,9 +230,9 @@ def test_a_sweep_of_traction_has_no_step():
 @pytest.mark.slow
 def test_what_is_cut_is_claimed(monkeypatch):
     """With waves kept that are twice as short, and again, figures change by less than errors."""
-    given, found = elements.CUT, []
+    given, found = corrections.CUT, []
     for share in (0.5, 1.0, 2.0):
-        monkeypatch.setattr(elements, "CUT", share * given)
+        monkeypatch.setattr(corrections, "CUT", share * given)
         found.append(driven(0.53))
     assert all(one.converged and one.model.geometry == "finite" for one in found)
     assert found[2].final.cut < 0.8 * found[0].final.cut
@@ -245,11 +245,11 @@ def test_what_is_cut_is_claimed(monkeypatch):
 @pytest.mark.slow
 def test_a_creepage_that_crosses_zero_is_known_no_better(monkeypatch):
     """It claimed 0.5 % of itself: 25 times less than what half of the waves change."""
-    given, found = elements.CUT, []
+    given, found = corrections.CUT, []
     nip = configuration(3, driven=True)
     nip = replace(nip, tangential=rn.Traction(0.09 * nip.normal.load))
     for share in (1.0, 2.0):
-        monkeypatch.setattr(elements, "CUT", share * given)
+        monkeypatch.setattr(corrections, "CUT", share * given)
         found.append(rn.solve(nip, FULL))
     assert abs(found[0].creepage) < 1e-3
     change = abs(found[1].creepage - found[0].creepage)
@@ -265,7 +265,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     """
     found = []
     for enough in (1.0, 0.03):
-        monkeypatch.setattr(beyond, "ENOUGH", enough)
+        monkeypatch.setattr(all_orders, "CONVERGED", enough)
         found.append(rn.solve(figure_4(0.31)))
     rough, fine = found
     assert rough.final.residual > 5e-4 > 5.0 * fine.final.residual
@@ -388,13 +388,13 @@ def test_a_memory_against_a_calculation_in_time(stored):
 def test_a_skin_takes_few_turns(monkeypatch):
     """Turns begin from the linear displacements: under a skin the second order misleads them."""
     turns = []
-    beyond_of = beyond.AllOrders.beyond
+    beyond_of = all_orders.PairCorrection.of_contact
 
     def counted(self, *given, **named):
         turns.append(1)
         return beyond_of(self, *given, **named)
 
-    monkeypatch.setattr(beyond.AllOrders, "beyond", counted)
+    monkeypatch.setattr(all_orders.PairCorrection, "of_contact", counted)
     solution = rn.solve(rn.read_case(EXAMPLES / "figure-4-top-layer-0.1mm.toml").nip, FULL)
     assert solution.converged
     assert solution.model.geometry == "finite"

@@ -15,13 +15,13 @@ FIGURES = ("approach", "nip_width", "peak_pressure", "creepage", "dissipation_fr
 @pytest.fixture
 def evaluations(monkeypatch):
     """Count evaluations of either roller."""
-    found, inner = [], FiniteResponse.displacement
+    found, inner = [], FiniteResponse.correction
 
     def counted(*given, **named):
         found.append(1)
         return inner(*given, **named)
 
-    monkeypatch.setattr(FiniteResponse, "displacement", counted)
+    monkeypatch.setattr(FiniteResponse, "correction", counted)
     return found
 
 

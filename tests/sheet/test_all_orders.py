@@ -11,7 +11,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.finite import NoEquilibriumError, columns, strip
 from rollnip.rolling import surface_depths
-from rollnip.rolling.elements import AllOrders
+from rollnip.rolling.corrections import PairCorrection
 from rollnip.sheet import all_orders
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap
 
@@ -147,7 +147,7 @@ def _driven_hard(load, shares, monkeypatch, *, bending=False):
 
     The covering is stretched to four times its length at the edge that slips.
     """
-    monkeypatch.setattr(all_orders, "SHARES_KEPT", shares)
+    monkeypatch.setattr(all_orders, "CUT_FACTORS", shares)
     nip = nip_with(
         paper(bending=bending),
         lower=RIGID,
@@ -330,7 +330,7 @@ def test_where_there_is_no_equilibrium_the_second_order_is_solved_and_said(monke
     def none(*_, **__):
         raise NoEquilibriumError
 
-    monkeypatch.setattr(AllOrders, "under", none)
+    monkeypatch.setattr(PairCorrection, "of_tractions", none)
     nip = nip_with(paper(bending=bending))
     found, second = rn.solve(nip, ALL), rn.solve(nip, SECOND)
     assert found.model.geometry == "second"

@@ -9,7 +9,7 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.rolling import zone_meshes
-from rollnip.rolling.elements import AllOrders
+from rollnip.rolling.corrections import PairCorrection
 from rollnip.sheet import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -97,13 +97,13 @@ def test_a_zone_found_late_asks_for_no_finer_meshes_than_its_errors_do(counted):
 def test_the_finest_mesh_is_solved_with_one_correction(monkeypatch, name):
     # Corrections were rough until the mesh was refined; what they lacked took another contact and
     # another correction on the finest mesh, a quarter of the time.
-    evaluated, under = [], AllOrders.under
+    evaluated, under = [], PairCorrection.of_tractions
 
     def counted(self, *sides, **how):
         evaluated.append(how["roughly"])
         return under(self, *sides, **how)
 
-    monkeypatch.setattr(AllOrders, "under", counted)
+    monkeypatch.setattr(PairCorrection, "of_tractions", counted)
     nip = rn.read_case(EXAMPLES / f"sheet-{name}.toml").nip
     assert rn.solve(nip).converged
     assert evaluated == [True, False, False]

@@ -1,9 +1,17 @@
-"""Finite strain of all orders: equilibrium of a covering under given tractions."""
+"""Finite strain of all orders by finite elements: a covering under given surface tractions.
+
+`strip` is the mesh of a covering, `numbering` its unknowns in banded storage, `columns` where its
+columns lie. `equilibrium` solves it by Newton's method under tractions that follow the surface
+(`follower_load`, `nodal_tractions`); `memory` and `relaxing_stress` add viscoelastic stresses,
+`state` holds states and tangents. `response` turns equilibria into the correction of the linear
+displacement that a contact is solved with; `_spline` and `_low_pass` make it a smooth function of
+the place. `stress` evaluates the fields inside, `power` the heat.
+"""
 
 from rollnip.finite._spline import Spline
-from rollnip.finite.acting import nodal
 from rollnip.finite.equilibrium import Body
-from rollnip.finite.pull import Tractions
+from rollnip.finite.follower_load import Tractions
+from rollnip.finite.nodal_tractions import linear_between_nodes
 from rollnip.finite.response import (
     CUT,
     DeformedSurface,
@@ -31,7 +39,7 @@ __all__ = [
     "Tractions",
     "deformed_surface",
     "element_fields",
+    "linear_between_nodes",
     "linear_surface",
-    "nodal",
     "present_place",
 ]

@@ -1,9 +1,9 @@
-"""Where the columns of a mesh lie: dense where tractions change, and as far as a covering is moved.
+"""Column positions of a mesh: dense where tractions change, and as far as the covering moves.
 
-A stiff skin brings two lengths of its own. Beside an edge the pressure changes within its
-thickness. And it carries forces along the surface over sqrt(E h / k), E h the stiffness of the
-skin, E = E / (1 - nu^2), and k = G/t the shear stiffness of what lies between it and the core: a
-mesh that ends sooner lets it slide.
+A stiff skin of thickness h adds two lengths. Beside an edge of the contact the pressure changes
+within about h. Along the surface the skin carries forces over the shear lag sqrt(E' h / k), with
+E' = E/(1 - nu^2) of the skin and the shear stiffness k = G/t of the layers between it and the core:
+on a shorter mesh it would slide.
 """
 
 from __future__ import annotations
@@ -17,41 +17,44 @@ import numpy as np
 from rollnip.finite.strip import Array
 from rollnip.rollers import Layer, Roller
 
-_COLUMNS = 32  # elements under the tractions
-_BESIDE_EDGE = 0.15  # longest element at an edge, over the length within which pressures change
-_SLOPE = 0.25  # of the longest element by the distance from the edge
-_FROM_EDGE = np.geomspace(0.1, 32.0, 18)  # distances from an edge at which this is looked up
-_SLOPE_BESIDE = 0.4  # the same beside the tractions, where the skin bends, too
-# Longest element under the tractions, over the thickness of what is squeezed between stiff sides.
-# With 0.4 approach, width and peak are within 2e-4 of those with 0.1, with 1 a few per cent off.
+_COLUMNS = 32  # elements under the tractions, where no length below asks for more
+_BESIDE_EDGE = 0.15  # longest element at an edge, over `Columns.skin`
+_EDGE_GROWTH = 0.25  # by which it grows per distance from the edge, under the tractions
+_FROM_EDGE = np.geomspace(0.1, 32.0, 18)  # distances, over `skin`, at which this is evaluated
+_OUTER_EDGE_GROWTH = 0.4  # as _EDGE_GROWTH, beside the tractions, where the skin bends, too
+# Longest element under the tractions, over `Columns.squeezed`. With 0.4 approach, width and peak
+# are within 2e-4 of those with 0.1; with 1 they are a few per cent off.
 _OVER_SQUEEZED = 0.4
-# Elements under the tractions, at most. Incompressible coverings that would need more have more
-# than 200 times their thickness within half the nip width; the contact is not verified there.
+# Elements under the tractions, at most. Incompressible coverings that would need more have a
+# half-width of more than 200 times their thickness; their contact is not verified.
 _MOST_COLUMNS = 1024
-_INSIDE = 4.0  # longest element anywhere under the tractions, over the same
-_GROWTH = 2.0  # of elements beside the tractions
-_LONGEST = 0.8  # element, over the thickness that counts
-_LAG = 0.125  # the same, over the length along which a skin carries forces, if that is more
-_REACH = 4.75  # of the mesh beyond the tractions, over the thickness that counts
+_INSIDE = 4.0  # longest element anywhere under the tractions, over `skin`
+_GROWTH = 2.0  # ratio of the lengths of neighbouring elements beside the tractions, at most
+# Beside the tractions; "thickness" is that of the covering, at least _LEAST_THICKNESS half-widths.
+_LONGEST = 0.8  # longest element, over the thickness
+_LONGEST_OVER_LAG = 0.125  # the same over the shear lag of a skin; the larger of the two counts
+_REACH = 4.75  # of the mesh beyond the tractions, over the thickness
 _REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
-_LAGS = 5.0  # the same, over the length along which a skin carries forces
-_TURN = 2.5  # of the radius: how far arcs reach at most
-_TURNS = 2.0 * pi  # the same under a skin
-_WAVES = 8.0  # wave number that counts under a stiff skin, times its thickness
-_STIFF = 10.0  # times as stiff as what it covers: half of these waves count
-_LEAST_THICKNESS = 0.5  # that counts, over the half-width
+_REACH_OVER_LAG = 5.0  # the same over the shear lag of a skin; the larger of the two counts
+_LARGEST_ARC = 2.5  # largest arc of the mesh, over the radius
+_LARGEST_REACH_BY_LAG = 2.0 * pi  # largest reach on account of the shear lag, over the radius
+_SKIN_CUT = 8.0  # largest wave number of the correction under a very stiff skin, times `skin`
+_STIFF_RATIO = 10.0  # ratio of moduli of two layers that halves the effect of the stiffer one
+_LEAST_THICKNESS = 0.5  # see above
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Lengths that set the columns of a covering.
+    """Lengths from which the columns of a mesh are laid out.
 
     Attributes
     ----------
-    longest : element beside the tractions [mm].
-    reach : how far the mesh goes on beyond the tractions [mm].
-    skin : length within which pressures change beside an edge [mm]; inf without a stiff skin.
-    cut : wave number up to which the displacement of a stiff skin counts [1/mm]; 0 without one.
+    longest : longest element beside the tractions [mm].
+    reach : length of the mesh beyond the tractions, on either side [mm].
+    skin : length within which pressures change beside an edge under a stiff skin [mm]; inf without
+        one.
+    cut : wave number up to which the correction keeps waves because of the skin [1/mm]; 0 without
+        one.
     squeezed : thickness of what is squeezed between the tractions and a stiff layer or core [mm].
     """
 
@@ -63,30 +66,35 @@ class Columns:
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Columns:
-        """Return the lengths for a contact of about that half-width [mm]."""
-        thick, lag = max(roller.coating_thickness, _LEAST_THICKNESS * half_width), _lag(roller)
+        """Return the lengths for a contact of about this half-width [mm]."""
+        thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
+        lag = _shear_lag(roller)
         reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * thick
-        far = _LAGS * lag
+        far = _REACH_OVER_LAG * lag
         if roller.curvature > 0.0:
-            reach = min(reach, _TURN * roller.radius - half_width)
-            far = min(far, _TURNS * roller.radius)
-        longest = max(_LONGEST * thick, _LAG * lag)
-        return cls(longest, max(reach, far), _skin(roller), _cut(roller), _squeezed(roller))
+            reach = min(reach, _LARGEST_ARC * roller.radius - half_width)
+            far = min(far, _LARGEST_REACH_BY_LAG * roller.radius)
+        longest = max(_LONGEST * thick, _LONGEST_OVER_LAG * lag)
+        skin, squeezed = _skin_length(roller), _squeezed_thickness(roller)
+        return cls(longest, max(reach, far), skin, _skin_cut(roller), squeezed)
 
     def places(
-        self, nodes: Array, pressure: Array, *, is_parted: bool = False
+        self, nodes: Array, pressure: Array, *, has_several_zones: bool = False
     ) -> tuple[Array, slice]:
-        """Return where the columns are to be when deformed, and which of them are loaded.
+        """Return the present places of the ends of columns, and which of them bound loaded columns.
 
-        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact. Where it
-        ``is_parted`` into zones of stick and slip, columns of a stiff skin depend on its edges
-        only: zones move while the correction is sought, and the errors of other columns would move
-        them on.
+        Parameters
+        ----------
+        nodes : (N+1,) of the contact [mm].
+        pressure : (N-1,) at nodes[1:-1].
+        has_several_zones : whether the contact has zones of stick and of slip. The columns of a
+            stiff skin then follow its edges, not its nodes: zones move from iteration to iteration,
+            and the errors of columns that follow them would move them again.
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
-        if is_parted and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _WAVES:
-            near = _crowded(near[0], near[-1], _INSIDE * self.skin)
+        if has_several_zones and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _SKIN_CUT:
+            near = _dense_at_edges(near[0], near[-1], _INSIDE * self.skin)
         under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]
         after = self._beside(under[-1] - under[-2])
@@ -94,7 +102,7 @@ class Columns:
         return places, slice(before.size, before.size + under.size)
 
     def under(self, nodes: Array) -> Array:
-        """Return columns as dense as nodes, and denser where the skin asks for it."""
+        """Return the ends of loaded columns: as dense as the nodes, or as the lengths ask for."""
         places = nodes
         if self.skin < inf:
             near = self.skin * _FROM_EDGE
@@ -102,7 +110,7 @@ class Columns:
             places = places[(places >= nodes[0]) & (places <= nodes[-1])]
         lengths, middles = np.diff(places), 0.5 * (places[1:] + places[:-1])
         to_edge = np.minimum(middles - nodes[0], nodes[-1] - middles)
-        longest = np.minimum(_BESIDE_EDGE * self.skin + _SLOPE * to_edge, _INSIDE * self.skin)
+        longest = np.minimum(_BESIDE_EDGE * self.skin + _EDGE_GROWTH * to_edge, _INSIDE * self.skin)
         longest = np.minimum(longest, _OVER_SQUEEZED * self.squeezed)
         even = np.interp(places, nodes, np.linspace(0.0, _COLUMNS, nodes.size))
         wanted = np.maximum(np.diff(even), lengths / longest)
@@ -111,19 +119,23 @@ class Columns:
         return np.interp(np.linspace(0.0, number[-1], count + 1), number, places)
 
     def _beside(self, first: float) -> Array:
-        """Return distances from an edge: growing from the first element, then even."""
+        """Return distances of column ends from an edge, up to ``reach``.
+
+        Elements grow from the length ``first`` on, until they are as long as they may be.
+        """
         step, ends = min(first, self.longest), [0.0]
         while ends[-1] < self.reach:
             ends.append(ends[-1] + step)
-            bent = _BESIDE_EDGE * self.skin + _SLOPE_BESIDE * ends[-1]
+            bent = _BESIDE_EDGE * self.skin + _OUTER_EDGE_GROWTH * ends[-1]
             step = min(_GROWTH * step, self.longest, bent)
         return np.array(ends[1:]) * (self.reach / ends[-1])
 
 
-def _crowded(start: float, stop: float, length: float) -> Array:
-    """Return nodes at places that go as squares over some length from either edge, as cosines do.
+def _dense_at_edges(start: float, stop: float, length: float) -> Array:
+    """Return places whose distance from either edge grows as a square within some length.
 
-    From there to the middle their logarithm goes evenly, see `contact.cosine_nodes`.
+    So do the cosine nodes of a contact; from there to the middle the distance grows as an
+    exponential, see `contact.cosine_nodes`.
     """
     half = 0.5 * (stop - start)
     even = np.linspace(-1.0, 1.0, _COLUMNS + 1)
@@ -131,10 +143,11 @@ def _crowded(start: float, stop: float, length: float) -> Array:
     return np.asarray(np.where(even < 0.0, start + to_edge, stop - to_edge))
 
 
-def _skin(roller: Roller) -> float:
-    """Return the length within which pressures change beside an edge under a stiff top layer.
+def _skin_length(roller: Roller) -> float:
+    """Return the length within which pressures change beside an edge under a stiff top layer [mm].
 
-    Its thickness where it is much stiffer than what it covers; inf where it is not stiffer.
+    It is the thickness of that layer where it is much stiffer than the next one; inf where it is
+    not stiffer.
     """
     for top, below in pairwise(roller.layers[:2]):
         softer = below.material.relaxed_modulus / top.material.glassy_modulus
@@ -143,39 +156,39 @@ def _skin(roller: Roller) -> float:
     return inf
 
 
-def _squeezed(roller: Roller) -> float:
-    """Return the thickness of what is squeezed between the tractions and a stiff layer or core.
+def _squeezed_thickness(roller: Roller) -> float:
+    """Return the thickness squeezed between the tractions and a stiff layer or core [mm].
 
-    What cannot change its volume flows sideways there, in a parabola over this thickness that
-    follows the slope of the pressure: elements that are longer do not have it. A layer less than
-    ten times as stiff below yields itself.
+    Incompressible rubber flows sideways there, with a parabolic profile over this thickness driven
+    by the gradient of the pressure; longer elements do not resolve it. A layer below that is less
+    than ten times as stiff yields itself, so that the thickness counts as larger.
     """
     depth, least = 0.0, inf
     for layer, below in zip(roller.layers, [*roller.layers[1:], None], strict=True):
         depth += layer.thickness
         softer = 0.0
         if below is not None:
-            softer = _STIFF * layer.material.relaxed_modulus / below.material.glassy_modulus
+            softer = _STIFF_RATIO * layer.material.relaxed_modulus / below.material.glassy_modulus
         least = min(least, depth * (1.0 + softer**3))
     return least
 
 
-def _cut(roller: Roller) -> float:
-    """Return the wave number up to which the displacement of a stiff top layer counts.
+def _skin_cut(roller: Roller) -> float:
+    """Return the wave number up to which a stiff top layer needs waves of the correction [1/mm].
 
-    Waves shorter than its thickness carry the peak of pressure beside an edge, which only a layer
-    many times stiffer than what it covers has. Beside a slipping edge iterations do not settle
-    with such waves.
+    Waves shorter than its thickness carry the pressure peak beside an edge, which only a layer many
+    times stiffer than the next one has. Without such a peak they are left out, because beside a
+    slipping edge the iterations do not settle with them.
     """
     if len(roller.layers) < 2:
         return 0.0
     top, below = (layer.material for layer in roller.layers[:2])
-    softer = _STIFF * below.relaxed_modulus / top.glassy_modulus
-    return _WAVES / (_skin(roller) * (1.0 + softer**3))
+    softer = _STIFF_RATIO * below.relaxed_modulus / top.glassy_modulus
+    return _SKIN_CUT / (_skin_length(roller) * (1.0 + softer**3))
 
 
-def _lag(roller: Roller) -> float:
-    """Return the length along which a layer carries forces before the core has taken them."""
+def _shear_lag(roller: Roller) -> float:
+    """Return the largest shear lag: the length over which a layer passes its force to the core."""
     lag, below = 0.0, 0.0
     for layer in reversed(roller.layers):
         poisson, glassy = layer.material.poisson, layer.material.glassy_modulus

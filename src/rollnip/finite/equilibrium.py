@@ -1,17 +1,18 @@
-"""Equilibrium of a covering under tractions that follow its surface, at any strain.
+"""Equilibrium of a covering at finite strain under follower loads, by Newton's method.
 
-The energy of a layer is  psi = G [w(I, J) - r ln J] + U(J),  I = F : F  (`rollnip.materials`), with
-nominal stress
+The strain energy of a layer is  psi = G [w(I, J) - r ln J] + U(J),  I = F : F
+(`rollnip.materials`), its nominal stress
 
     P = 2 G w_I F + (G w_J + c) cof F,     c = U'(J) - r G/J;
 
 w = I/2 and r = 1 is neo-Hookean. An incompressible layer has J = 1 and c = pi - r G with an unknown
-pi. Volume and pressure are linear in each element and not continuous: J is replaced by its
-projection in c, c by its own (Simo, Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51,
-177-208), so that nothing locks as nu approaches 0.5.
+pi. The elements are mixed ones: volume and pressure are linear in each element and discontinuous
+between elements. In c, J is replaced by its projection on such functions, and c by its own (Simo,
+Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51, 177-208); so nothing locks as nu
+approaches 0.5. Pressures are eliminated element by element.
 
-The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y') , p and q the pressure
-and shear at the *present* place x(s); its derivative by the displacements is kept whole.
+The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y'), with the pressure p
+and the shear q at the *present* place x(s). The tangent stiffness includes its full derivative.
 """
 
 from __future__ import annotations
@@ -23,55 +24,48 @@ from math import inf, sqrt
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.follower_load import FollowerLoad, Tractions, summed
 from rollnip.finite.memory import Memory
-from rollnip.finite.pull import Pull, Tractions, summed
-from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError, Tangent
+from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
+from rollnip.finite.state import (
+    GMRES_TOLERANCE,
+    MeshState,
+    NoEquilibriumError,
+    PointFields,
+    Tangent,
+)
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip
-from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
 
-# An incompressible layer yields to its pressure by this over G while a step is computed, not in
-# the result: every step reduces what is left of J - 1 by about this factor.
-_YIELD = 1e-6
-_SOFT = NeoHookean()
-# Allowed error of a result, over the displacement, in energy: a skin answers short waves that
-# are a millionth of the displacement with pressures like those of the contact.
-STILL = 1e-5
-# What settles takes five steps at most (485 equilibria of the examples and 100 random nips).
+# Compliance of the volume to the pressure, over 1/G, with which an incompressible layer is regular
+# within a step. The result does not depend on it: every step updates the pressures, as an augmented
+# Lagrangian does, and reduces J - 1 by about this factor.
+_VOLUME_COMPLIANCE = 1e-6
+_NEO_HOOKEAN = NeoHookean()
+# Tolerance: root of the energy of the error over that of the work of the tractions. Displacements
+# alone would not do: a skin answers short waves, a millionth of the displacement, with pressures
+# like those of the contact.
+EQUILIBRIUM_TOLERANCE = 1e-5
+# Equilibria that converge take five steps at most (485 of the examples and 100 random nips).
 _MOST_STEPS = 15
-_LEAST_VOLUME = 0.1  # J that a step may reach
-_LEFT_BY_A_STEP = 1e-3  # of the loads of a step, by an iterative solution
-_SHORTEST = 1e-2  # part of a step that is worth while
-_CONTRACTION = 0.3  # of steps, up to which a derivative is kept
-_CURVED = 3.0  # contraction expected of a derivative that is a step old, over the step
-
-
-@dataclass(frozen=True)
-class _Fields:
-    """Deformation and stress at the points of Gauss, for the forces and their derivative.
-
-    F (4, elements, 9), see `Strip.deformation`; c with G w_J, and 2 G w_I, (elements, 9); step and
-    rate of the pressures; G times the derivatives of w, None where those of second order are zero;
-    stresses that relax, None where there are none.
-    """
-
-    deformation: Array
-    c: Array
-    straight: Array
-    step: Array
-    rate: Array
-    second: Slopes | None
-    viscous: Viscous | None
+_LEAST_VOLUME = 0.1  # smallest J that a step may lead to
+_STEP_GMRES_TOLERANCE = 1e-3  # relative residual of an iterative linear solution within a step
+_LEAST_PART = 1e-2  # smallest part of a Newton step that is tried
+_CONTRACTION = 0.3  # ratio of successive steps up to which a tangent is used again
+# Ratio expected of the step after the first one, if both use the tangent at the start, over the
+# first step relative to the displacement.
+_EXPECTED_CONTRACTION = 3.0
 
 
 @dataclass(frozen=True)
 class Body:
-    """A mesh with the strain energies of its elements.
+    """A mesh of a covering with the strain energies of its elements.
 
     Attributes
     ----------
     strip : the mesh.
-    speed : V at which viscoelastic layers pass it [mm/s]; needed for these alone.
+    speed : V at which the covering passes it [mm/s]; None: all layers act as elastic ones with the
+        relaxed modulus.
     """
 
     strip: Strip
@@ -86,7 +80,7 @@ class Body:
 
     @cached_property
     def _constants(self) -> tuple[Array, Array, Array]:
-        """G, lambda (0 where incompressible) and 1 where incompressible, (elements, 1)."""
+        """G, lambda (0 if incompressible), and 1 if incompressible or else 0; (elements, 1)."""
         shear, lame, rigid = [], [], []
         for layer in self.strip.depths.roller.layers:
             young, nu = layer.material.relaxed_modulus, layer.material.poisson
@@ -99,8 +93,8 @@ class Body:
 
     @cached_property
     def _energies(self) -> list[tuple[Energy, Array | slice]]:
-        """The different strain energies, each with a mask of its elements."""
-        given = [layer.material.energy or _SOFT for layer in self.strip.depths.roller.layers]
+        """The different strain energies, each with the mask of the elements that have it."""
+        given = [layer.material.energy or _NEO_HOOKEAN for layer in self.strip.depths.roller.layers]
         different = list(dict.fromkeys(given))
         if len(different) == 1:
             return [(different[0], slice(None))]
@@ -109,14 +103,18 @@ class Body:
 
     @cached_property
     def _rest(self) -> Array:
-        """Slope of the energies at rest over G, (elements, 1)."""
+        """The slope r of w at rest, of every element, (elements, 1)."""
         out = np.empty((self.strip.layer.size, 1))
         for energy, where in self._energies:
             out[where] = energy.rest
         return out
 
     def _slopes(self, volume: Array, spread: Array) -> Slopes:
-        """Return the derivatives of the energies by I and J over G, each (elements, 9)."""
+        """Return the derivatives of w by I and J, each (elements, 9).
+
+        ``volume`` is J and ``spread`` I - 2 J, see `Energy.slopes`. Raises `NoEquilibriumError`
+        where an energy has no such stretch.
+        """
         out = np.empty((len(Slopes._fields), *volume.shape))
         with np.errstate(all="ignore"):
             for energy, where in self._energies:
@@ -130,120 +128,124 @@ class Body:
         return MeshState(np.zeros(self.strip.size), np.zeros((self.strip.layer.size, 3)))
 
     def _law(self, volume: Array) -> tuple[Array, Array]:
-        """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
-        shear, lame, _ = self._constants
-        law = np.empty((2, *volume.shape))
+        """Return c and dc/dJ at J, for compressible elements (values of the others are unused)."""
+        (shear, lame, _), law = self._constants, np.empty((2, *volume.shape))
         for energy, where in self._energies:
             law[:, where] = energy.volume_slopes(volume[where], lame[where])
         turned = self._rest * shear / volume
         return law[0] - turned, law[1] + turned / volume
 
     def _volume_terms(
-        self, ratio: Array, pressure: Array, viscous: Viscous | None
+        self, ratio: Array, pressure: Array, relaxing: RelaxingStress | None
     ) -> tuple[Array, ...]:
-        """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points.
+        """Return c, and the pressure step and the pressure rate of `PointFields`.
 
-        Compressible elements have a pressure of their own, too, which steps to that of their
-        volume: so that steps go as far where nu is nearly 0.5.
+        ``ratio``, (elements, 9), is J at the Gauss points. Compressible elements have independent
+        pressures, too, which a step sets to what their law says of the projected volume: with
+        these, Newton's method converges as well where nu is nearly 0.5.
         """
         shear, _, rigid = self._constants
-        weighted, inverse = self.strip.products
+        weighted, inverse = self.strip.projection
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
-        step = rigid * (shear / _YIELD) * (mean - (1.0, 0.0, 0.0))
-        rate = (rigid * shear / _YIELD)[..., None] * inverse
+        pressure_step = rigid * (shear / _VOLUME_COMPLIANCE) * (mean - (1.0, 0.0, 0.0))
+        pressure_rate = (rigid * shear / _VOLUME_COMPLIANCE)[..., None] * inverse
         c = pressure @ LINEAR.T - self._rest * shear
         if not rigid.all():
             projected = mean @ LINEAR.T
             if not np.all(projected > 0.0):
                 raise NoEquilibriumError
             law, slope = self._law(projected)
-            if viscous is not None:
-                law, slope = law + viscous.volume_law[0], slope + viscous.volume_law[1]
+            if relaxing is not None:
+                law, slope = law + relaxing.volume_law[0], slope + relaxing.volume_law[1]
             wanted = (inverse @ (weighted @ law[..., None]))[..., 0] - pressure
             wanted[:, :1] += self._rest * shear
             soft = inverse @ (weighted @ (slope[..., None] * LINEAR)) @ inverse
-            step = np.where(rigid > 0.0, step, wanted)
-            rate = np.where(rigid[..., None] > 0.0, rate, soft)
-        return c, step, rate
+            pressure_step = np.where(rigid > 0.0, pressure_step, wanted)
+            pressure_rate = np.where(rigid[..., None] > 0.0, pressure_rate, soft)
+        return c, pressure_step, pressure_rate
 
     @cached_property
-    def _is_soft(self) -> bool:
+    def _is_neo_hookean(self) -> bool:
         """Return whether all layers are neo-Hookean."""
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
-    def _fields(self, state: MeshState, deformation: Array | None = None) -> _Fields:
-        """Return the fields of a state; ``deformation`` is F of it."""
+    def _fields(self, state: MeshState, deformation: Array | None = None) -> PointFields:
+        """Return the fields of a state; ``deformation`` is its F, if known."""
         if deformation is None:
             deformation = self.strip.deformation(state.displacement)
         x_s, x_z, y_s, y_z = deformation
         ratio, shear = x_s * y_z - x_z * y_s, self._constants[0]
-        straight, second = np.broadcast_to(shear, ratio.shape), None
+        isotropic, energy_slopes = np.broadcast_to(shear, ratio.shape), None
         slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
-        if not self._is_soft:
+        if not self._is_neo_hookean:
             slopes = self._slopes(ratio, (x_s - y_z) ** 2 + (x_z + y_s) ** 2)
-            second = Slopes(*(shear * one for one in slopes))
-            straight = 2.0 * second.i
-        viscous = None
+            energy_slopes = Slopes(*(shear * one for one in slopes))
+            isotropic = 2.0 * energy_slopes.i
+        relaxing = None
         if self.memory is not None:
             constants = (*self._constants[:2], self._rest)
-            viscous = Viscous.of(self.memory, deformation, constants, self._energies, slopes)
-        c, step, rate = self._volume_terms(ratio, state.pressure, viscous)
-        if second is not None:
-            c = c + second.j
-        return _Fields(deformation, c, straight, step, rate, second, viscous)
+            relaxing = RelaxingStress.of(
+                self.memory, deformation, constants, self._energies, slopes
+            )
+        c, pressure_step, pressure_rate = self._volume_terms(ratio, state.pressure, relaxing)
+        if energy_slopes is not None:
+            c = c + energy_slopes.j
+        return PointFields(
+            deformation, c, isotropic, pressure_step, pressure_rate, energy_slopes, relaxing
+        )
 
-    def relaxing(self, state: MeshState) -> Viscous | None:
-        """Return the stresses of a state that relax; None where all layers are elastic."""
-        return None if self.memory is None else self._fields(state).viscous
+    def relaxing_stress(self, state: MeshState) -> RelaxingStress | None:
+        """Return the relaxing stresses of a state; None where all layers are elastic."""
+        return None if self.memory is None else self._fields(state).relaxing
 
-    def _means(self, fields: _Fields) -> Array:
-        """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
+    def _derivatives(self, fields: PointFields) -> tuple[Array, Array]:
+        """Return `Tangent.volume_derivatives` and `Tangent.pressure_derivatives`."""
         x_s, x_z, y_s, y_z = fields.deformation
-        return self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
+        of_volume = self.strip.forces_by_basis(np.stack([y_z, -y_s, -x_z, x_s]))
+        return of_volume, fields.pressure_rate @ of_volume
 
-    def _force(self, fields: _Fields, means: Array) -> Array:
-        """Return the forces of the elements on the nodes, (unknowns,)."""
+    def _force(self, fields: PointFields, volume_derivatives: Array) -> Array:
+        """Return the internal forces at the nodes, the step of the pressures included."""
         (x_s, x_z, y_s, y_z), c = fields.deformation, fields.c
-        stress = fields.straight * fields.deformation
+        stress = fields.isotropic * fields.deformation
         stress[0] += c * y_z
         stress[1] -= c * y_s
         stress[2] -= c * x_z
         stress[3] += c * x_s
         force = self.strip.forces(stress)
-        force += (fields.step[:, None] @ means)[:, 0]
-        if fields.viscous is not None:
-            force += fields.viscous.force
-        # The core, at unknown -1, takes what is left over.
+        force += (fields.pressure_step[:, None] @ volume_derivatives)[:, 0]
+        if fields.relaxing is not None:
+            force += fields.relaxing.force
+        # Forces on the core, numbered -1, are added up at place 0 and left out.
         return summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
     @cached_property
-    def _soft(self) -> Array:
-        """Stiffness G grad.grad of neo-Hookean elements, the same at any strain."""
-        return self.strip.isotropic(self._constants[0])
-
-    def _stiffness(
-        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
-    ) -> Array:
-        """Return the derivative of the forces by the displacements, in banded storage, flat.
-
-        Without the memory of other columns.
-        """
-        stiff = self._element_stiffness(fields, means, rate, relaxing)
-        stored = self.strip.stored
-        return summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
+    def _neo_hookean_stiffness(self) -> Array:
+        """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
+        return self.strip.gradient_stiffness(self._constants[0])
 
     def _element_stiffness(
-        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
+        self,
+        fields: PointFields,
+        derivatives: tuple[Array, Array],
+        relaxing: RelaxingTangent | None,
     ) -> Array:
-        """Return the same of every element by itself, (elements, 2, 9, 2, 9)."""
-        straight = self._soft if self._is_soft else self.strip.isotropic(fields.straight)
-        turn = self.strip.turning(fields.c)
-        stiff = means.transpose(0, 2, 1) @ rate
-        if fields.viscous is not None and relaxing is not None:
-            straight = straight + fields.viscous.turning
-            stiff += relaxing.at_once()
-        if fields.second is not None:
-            stiff += self._stiffening(fields.deformation, fields.second)
+        """Return the derivative of the internal forces by the displacements, before assembly.
+
+        Of every element, (elements, 2, 9, 2, 9). What relaxing stresses owe to other Gauss points
+        is left out.
+        """
+        if self._is_neo_hookean:
+            straight = self._neo_hookean_stiffness
+        else:
+            straight = self.strip.gradient_stiffness(fields.isotropic)
+        turn = self.strip.cofactor_stiffness(fields.c)
+        stiff = derivatives[0].transpose(0, 2, 1) @ derivatives[1]
+        if fields.relaxing is not None and relaxing is not None:
+            straight = straight + fields.relaxing.geometric_stiffness
+            stiff += relaxing.own_stiffness()
+        if fields.energy_slopes is not None:
+            stiff += self._stiffening(fields.deformation, fields.energy_slopes)
         stiff = stiff.reshape(-1, 2, 9, 2, 9)
         stiff[:, 0, :, 0] += straight
         stiff[:, 1, :, 1] += straight
@@ -252,9 +254,9 @@ class Body:
         return np.asarray(stiff)
 
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
-        """Return what second derivatives of w add: dI = 2 F : dF, dJ = cof F : dF."""
+        """Return what the second derivatives of w add, with dI = 2 F : dF and dJ = cof F : dF."""
         x_s, x_z, y_s, y_z = deformation[..., None]
-        by_s, by_z = self.strip.shapes
+        by_s, by_z = self.strip.shape_derivatives
         along = 2.0 * np.concatenate([x_s * by_s + x_z * by_z, y_s * by_s + y_z * by_z], axis=-1)
         swell = np.concatenate([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-1)
         parts = (second.ii, second.ij, second.jj)
@@ -262,108 +264,130 @@ class Body:
         by_i, by_j = ii * along + ij * swell, ij * along + jj * swell
         return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
 
-    def _tangent(self, fields: _Fields, loads: tuple[Indices, Array] | None) -> Tangent:
-        """Factorise the derivative at some fields; ``loads`` are the entries of the tractions."""
-        means = self._means(fields)
-        rate = fields.rate @ means
-        relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
-        stiffness = self._stiffness(fields, means, rate, relaxing)
-        if loads is not None:
-            np.subtract.at(stiffness, *loads)
+    def _tangent(
+        self, fields: PointFields, load_stiffness: tuple[Indices, Array] | None
+    ) -> Tangent:
+        """Factorise the tangent stiffness, with the load stiffness in it if that is given."""
+        derivatives = self._derivatives(fields)
+        relaxing = None if fields.relaxing is None else RelaxingTangent.of(fields.relaxing)
+        stiffness = self._element_stiffness(fields, derivatives, relaxing).ravel()
+        stored = self.strip.storage_size
+        stiffness = summed(self.strip.slots, stiffness, stored + 1)[:stored]
+        if load_stiffness is not None:
+            np.subtract.at(stiffness, *load_stiffness)
         band = above = self.strip.band
         matrix = stiffness.reshape(self.strip.size, 3 * band + 1)
         if relaxing is not None:
-            matrix, above = relaxing.with_near(matrix), 2 * band
+            matrix, above = relaxing.with_near_columns(matrix), 2 * band
         factors, pivots, info = lapack.dgbtrf(matrix.T, band, above, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
         order = self.strip.order
-        return Tangent((band, above), factors, pivots, means, rate, relaxing, order)
+        return Tangent((band, above), factors, pivots, *derivatives, relaxing, order)
 
     @cached_property
-    def at_first(self) -> Tangent:
-        """The derivative of the undeformed state, symmetric where all layers are elastic."""
+    def initial_tangent(self) -> Tangent:
+        """Tangent of the undeformed state without loads, symmetric where all layers are elastic."""
         fields = self._fields(self.at_rest())
         if self.memory is not None:
             return self._tangent(fields, None)
-        means, band = self._means(fields), self.strip.band
-        rate = fields.rate @ means
+        derivatives, band = self._derivatives(fields), self.strip.band
         entries, places = self.strip.lower_slots
-        stiffness = self._element_stiffness(fields, means, rate, None).ravel()[entries]
+        stiffness = self._element_stiffness(fields, derivatives, None).ravel()[entries]
         lower = summed(places, stiffness, (band + 1) * self.strip.size)
         matrix = lower.reshape(self.strip.size, band + 1).T
         factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent((band, 0), factors, None, means, rate, order=self.strip.order)
+        return Tangent((band, 0), factors, None, *derivatives, order=self.strip.order)
 
-    def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
-        """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.
+    def linear_displacements(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> Array:
+        """Return the displacements of linear theory, (unknowns,) [mm].
 
-        They act along the tangent and the normal of the undeformed surface. ``left``: the share of
-        the loads that an iterative solution may leave over.
+        The tractions are given at undeformed arcs, per undeformed arc, along the tangent and the
+        normal of the undeformed surface. ``rtol``: relative residual of an iterative solution.
         """
-        return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
+        load = FollowerLoad.undeformed(self.strip, tractions)
+        return self.initial_tangent.solve(load.nodal_forces, rtol)
 
-    def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
-        """Return the displacements of linear theory with their pressures, in the same form."""
-        displacement = self.linear_displacements(tractions, left)
-        return MeshState(displacement, self.at_first.pressures(self.strip.local(displacement)))
+    def linear_state(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> MeshState:
+        """Return the displacements of linear theory, as above, with their pressures."""
+        displacement = self.linear_displacements(tractions, rtol)
+        pressure = self.initial_tangent.pressure_changes(self.strip.local(displacement))
+        return MeshState(displacement, pressure)
 
     def equilibrium(
-        self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
+        self,
+        tractions: Tractions,
+        start: MeshState,
+        tolerance: float = EQUILIBRIUM_TOLERANCE,
+        step_tolerance: float = 0.0,
     ) -> MeshState:
-        """Solve by Newton's method, until ``still`` times the displacement or less is left.
+        """Return the equilibrium under some tractions, by Newton's method.
 
-        Or until no more is left than a ``share`` of the first step. All are measured by the root of
-        a work: that of a step against what is out of balance, and that of the tractions. A
-        derivative is kept as long as steps shrink to 0.3 with it. Raises `NoEquilibriumError` where
-        steps do not settle from ``start``, not even with the derivative there.
+        A step du against the residual force r is measured by sqrt(|du . r|) over the root of the
+        work of the tractions. Steps end when the estimated error is at most ``tolerance``, or at
+        most ``step_tolerance`` times the first step. A tangent is used again as long as each step
+        is at most 0.3 of the one before; the first one is that of ``start``, if it has one.
+
+        Raises
+        ------
+        NoEquilibriumError
+            where steps do not converge from ``start``, not even with a new tangent there.
         """
         if start.tangent is None:
-            return self._by_steps(tractions, start, still, share)
+            return self._newton(tractions, start, tolerance, step_tolerance)
         try:
-            return self._by_steps(tractions, start, still, share)
+            return self._newton(tractions, start, tolerance, step_tolerance)
         except NoEquilibriumError:
             unloaded = MeshState(start.displacement, start.pressure)
-            return self._by_steps(tractions, unloaded, still, share)
+            return self._newton(tractions, unloaded, tolerance, step_tolerance)
 
-    def _by_steps(
-        self, tractions: Tractions, start: MeshState, still: float, share: float
+    def _newton(
+        self, tractions: Tractions, start: MeshState, tolerance: float, step_tolerance: float
     ) -> MeshState:
-        """Solve from a state, the first steps with its derivative if that is known."""
-        state, tangent, before, first = start, start.tangent, inf, 0.0
+        """Take Newton steps from a state, the first ones with its tangent if it has one."""
+        state, tangent, last_step, first = start, start.tangent, inf, 0.0
         deformation = self.strip.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
-            pulled = Pull.of(self.strip, state.displacement, tractions)
+            load = FollowerLoad.of(self.strip, state.displacement, tractions)
             is_new = tangent is None
             if tangent is None:
-                tangent = self._tangent(fields, pulled.turning)
-            left_over = pulled.loads - self._force(fields, tangent.means)
-            step = tangent.solved(left_over, _LEFT_BY_A_STEP)
-            part, deformation = self._part(deformation, step)
-            change = part * fields.step + tangent.pressures(self.strip.local(part * step))
+                tangent = self._tangent(fields, load.stiffness)
+            residual = load.nodal_forces - self._force(fields, tangent.volume_derivatives)
+            step = tangent.solve(residual, _STEP_GMRES_TOLERANCE)
+            part, deformation = self._admissible_part(deformation, step)
+            change = part * fields.pressure_step + tangent.pressure_changes(
+                self.strip.local(part * step)
+            )
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = MeshState(moved, pressed, tangent)
-            size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
-            is_first = before == inf
-            shrinks = _CURVED * size if is_first else size / before
-            done = max(float(pulled.loads @ state.displacement), float(np.finfo(float).tiny))
-            work = sqrt(abs(float(left_over @ step)) / done)
-            first = max(first, work)
-            left = work if is_first and not is_new else work * min(shrinks, 1.0)
-            if part == 1.0 and left <= max(still, share * first):
+            relative_step = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
+            is_first = last_step == inf
+            contraction = (
+                _EXPECTED_CONTRACTION * relative_step if is_first else relative_step / last_step
+            )
+            load_work = max(
+                float(load.nodal_forces @ state.displacement), float(np.finfo(float).tiny)
+            )
+            measure = sqrt(abs(float(residual @ step)) / load_work)
+            first = max(first, measure)
+            error = measure if is_first and not is_new else measure * min(contraction, 1.0)
+            if part == 1.0 and error <= max(tolerance, step_tolerance * first):
                 return state
-            before = size
-            if part < 1.0 or not shrinks <= _CONTRACTION:
-                tangent, before = None, inf
+            last_step = relative_step
+            if part < 1.0 or not contraction <= _CONTRACTION:
+                tangent, last_step = None, inf
         raise NoEquilibriumError
 
-    def _part(self, deformation: Array, step: Array) -> tuple[float, Array]:
-        """Return how much of a step leaves every element the right side out, and F after it."""
+    def _admissible_part(self, deformation: Array, step: Array) -> tuple[float, Array]:
+        """Return the part of a step that may be taken, and F after it.
+
+        The step is halved until J > 0.1 at all Gauss points, so that no element is inverted.
+        """
         change, part = self.strip.gradient(step), 1.0
-        while part >= _SHORTEST:
+        while part >= _LEAST_PART:
             moved = deformation + part * change
             x_s, x_z, y_s, y_z = moved
             if float((x_s * y_z - x_z * y_s).min()) > _LEAST_VOLUME:

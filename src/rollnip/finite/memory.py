@@ -1,21 +1,24 @@
-"""What viscoelastic layers remember in steady rolling at finite strain.
+"""Hereditary stresses of viscoelastic layers in steady rolling at finite strain.
 
-The elastic stress S of a layer, the second Piola-Kirchhoff stress of its strain energy with the
-relaxed modulus, relaxes as linear theory says, with g(t) = E(t)/E(inf) - 1:
+To the elastic stress S of a layer, the second Piola-Kirchhoff stress of its strain energy with the
+relaxed modulus, a relaxing stress is added, with the relaxation of linear theory,
+g(t) = E(t)/E(inf) - 1:
 
     S_total = S + g * dT/dt + J m'(J) [g * d(lambda m)/dt] C^-1,    U = lambda/2 m(J)^2,
 
     T = 2 G w_I 1 + G (w_J - r/J) J C^-1,    (g * f)(t) = int g(t - t') f(t') dt',
 
-components along the undeformed arc and into the undeformed roller, which turn with the material. An
-incompressible layer has no second integral; its pressure is free. At small strain T and lambda m
-together are the linear stress: E*(s) with a constant Poisson ratio. Slow rolling is elastic with
-the relaxed modulus, fast rolling with the glassy one. The neo-Hookean T = G (1 - C^-1) is that of
-a network whose strands break and form again without stress (Green & Tobolsky 1946, J. Chem. Phys.
-14, 80-92; Lodge 1956, Trans. Faraday Soc. 52, 120-130), which never gives back more than it took.
+with components along the undeformed arc and into the undeformed roller, which rotate with the
+material. An incompressible layer has no second integral, because its pressure is free. At small
+strains T and lambda m together are the linear stress: E*(s) with a constant Poisson ratio. Slow
+rolling is elastic with the relaxed modulus, fast rolling with the glassy one. The neo-Hookean
+T = G (1 - C^-1) is that of a network whose strands break and form again free of stress (Green &
+Tobolsky 1946, J. Chem. Phys. 14, 80-92; Lodge 1956, Trans. Faraday Soc. 52, 120-130), which never
+returns more energy than it took.
 
-In steady rolling a material point runs along its row of elements towards smaller arcs s with the
-speed V. Stresses are linear between the points of Gauss of a row; the integrals are exact then.
+In steady rolling a material point moves along its row of elements towards smaller arcs s with the
+speed V, so that its history is a function of the arc. Stresses are taken as linear between the
+Gauss points of a row; the integrals are then exact sums, relaxing = weights @ stresses of the row.
 """
 
 from __future__ import annotations
@@ -31,11 +34,11 @@ from rollnip.materials import Material, memory_integral
 
 @dataclass(frozen=True)
 class Memory:
-    """Relaxing part of the stresses along the rows of a mesh.
+    """The history integrals g * df/dt along the rows of a mesh.
 
     Attributes
     ----------
-    strip : the mesh, with a viscoelastic layer.
+    strip : the mesh; at least one layer is viscoelastic.
     speed : V at which material passes undeformed arcs [mm/s].
     """
 
@@ -44,28 +47,28 @@ class Memory:
 
     @cached_property
     def _layers(self) -> list[tuple[Indices, Array]]:
-        """Rows of elements of every viscoelastic material, and what `_weights` says of it."""
+        """The rows of elements of every viscoelastic material, and its `_weights`."""
         rows: dict[Material, list[int]] = {}
         depths = self.strip.depths
-        for row, owner in enumerate(depths.owner):
-            material = depths.roller.layers[owner].material
+        for row, layer in enumerate(depths.row_layers):
+            material = depths.roller.layers[layer].material
             if not material.is_elastic:
                 rows.setdefault(material, []).append(row)
         arcs = self.strip.by_column(self.strip.points[0])[:, 0, 0]
         given = arcs, self.strip.ends[[0, -1]], self.speed
         return [(np.array(where), _weights(one, *given)) for one, where in rows.items()]
 
-    def relaxing(self, values: Array) -> Array:
-        """Return int g(t - t') df/dt' dt' of values at points of Gauss, (elements, 9, parts)."""
+    def history_integral(self, values: Array) -> Array:
+        """Return int g(t - t') df/dt' dt' of values f at Gauss points, (elements, 9, parts)."""
         return self._summed(values, [weights for _, weights in self._layers])
 
-    def from_far(self, values: Array) -> Array:
-        """Return the share of the same that comes from beyond the next element of a row."""
+    def far_integral(self, values: Array) -> Array:
+        """Return the same without the values of the own element and of the next one in its row."""
         return self._summed(values, self._far)
 
     def _summed(self, values: Array, all_weights: list[Array]) -> Array:
         parts = values.shape[-1]
-        rows = self.strip.depths.owner.size
+        rows = self.strip.depths.row_layers.size
         by_row = self.strip.by_column(values)
         out = np.zeros(by_row.shape)
         for (where, _), weights in zip(self._layers, all_weights, strict=True):
@@ -76,19 +79,23 @@ class Memory:
 
     @cached_property
     def _far(self) -> list[Array]:
-        """Weights of points beyond an element and the next (a loss factor has some behind, too)."""
+        """Weights without those of the own element and of the next one in its row, upstream.
+
+        Points downstream have a weight only where a layer has a constant loss factor.
+        """
         column = np.arange(3 * self.strip.columns) // 3
         ahead = column - column[:, None]
         is_far = (ahead != 0) & (ahead != 1)
         return [weights * is_far for _, weights in self._layers]
 
     @cached_property
-    def near(self) -> tuple[Array, Array]:
-        """Shares of the stresses along an element, and along the next, in those along it.
+    def near_weights(self) -> tuple[Array, Array]:
+        """Weights of the Gauss points of the own element, and of those of the next one in its row.
 
-        Each (elements, 3, 3); the share of a point in itself is `at_once`, and 0 here.
+        Each (elements, 3, 3), by points along the arc. The weights of a point on itself are
+        `own_weights`, and 0 here.
         """
-        columns, rows = self.strip.columns, self.strip.depths.owner.size
+        columns, rows = self.strip.columns, self.strip.depths.row_layers.size
         out = np.zeros((2, columns, rows, 3, 3))
         here = np.arange(columns)
         for where, weights in self._layers:
@@ -98,9 +105,9 @@ class Memory:
         return out[0].reshape(-1, 3, 3), out[1].reshape(-1, 3, 3)
 
     @cached_property
-    def at_once(self) -> Array:
-        """Share of a stress in its own relaxing part, (elements, 9)."""
-        rows = self.strip.depths.owner.size
+    def own_weights(self) -> Array:
+        """Weight of the value at each Gauss point on itself, (elements, 9)."""
+        rows = self.strip.depths.row_layers.size
         out = np.zeros((3 * self.strip.columns, rows))
         for where, weights in self._layers:
             out[:, where] = np.diagonal(weights)[:, None]
@@ -109,15 +116,15 @@ class Memory:
 
     @cached_property
     def is_compressible(self) -> bool:
-        """Return whether the volume of a viscoelastic layer may change."""
+        """Whether a viscoelastic layer is compressible."""
         materials = [layer.material for layer in self.strip.depths.roller.layers]
         return any(not one.is_elastic and one.poisson < 0.5 for one in materials)
 
 
 def _weights(material: Material, arcs: Array, ends: Array, speed: float) -> Array:
-    """Return what a stress at each of some arcs adds to the relaxing part at each, (n, n).
+    """Return the weights of the values at ``arcs`` in the history integrals there, (n, n).
 
-    Nothing acts at and beyond both ends; material comes from larger arcs.
+    Values are zero at both ``ends`` and beyond. Material comes from larger arcs.
     """
     times = np.concatenate([[ends[0]], arcs, [ends[1]]])[::-1] / -speed
     area = memory_integral(material, times[1:-1, None] - times)

@@ -1,8 +1,9 @@
-"""Unknowns of a mesh of elements: their numbers, and their places in a matrix in banded storage.
+"""Numbers of the unknowns of a mesh, and places of matrix entries in banded storage.
 
-All columns of a mesh have equally many elements. The displacements are numbered down one column of
-nodes after the other. A matrix has them in the same order or, where rows are shorter, along one row
-of nodes after the other: the nearer the unknowns of an element are, the fewer diagonals it has.
+All columns of a mesh have the same number of elements. Displacements are numbered down one column
+of nodes after the other. The rows of a matrix are in the same order or, if ``by_rows``, along one
+row of nodes after the other: where the mesh has more elements over its depth than along the
+surface, the band is narrower so. Banded storage is that of LAPACK, column by column.
 """
 
 from __future__ import annotations
@@ -13,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 Indices = NDArray[np.intp]
-_MESHES_KEPT = 16  # whose places of matrix entries are kept
+_MESHES_KEPT = 16  # meshes whose numbers and places are cached
 
 
 @lru_cache(maxsize=_MESHES_KEPT)
 def unknowns(columns: int, elements: int) -> Indices:
-    """Return `Strip.unknowns` of a mesh of so many columns, each of so many elements."""
+    """Return `Strip.unknowns` of a mesh with so many columns of so many elements each."""
     column = 2 * np.arange(columns)[:, None, None, None] + np.arange(3)[:, None]
     row = 2 * np.arange(elements)[:, None, None] + np.arange(3)
     node = np.where(row < 2 * elements, column * 2 * elements + row, -1).reshape(-1, 9)
@@ -29,7 +30,7 @@ def unknowns(columns: int, elements: int) -> Indices:
 
 
 def size_and_band(columns: int, elements: int, by_rows: bool = False) -> tuple[int, int]:
-    """Return the number of unknowns of such a mesh, and of diagonals on either side."""
+    """Return the number of unknowns of such a mesh, and of diagonals on either side of the main."""
     return 4 * elements * (2 * columns + 1), 8 * columns + 9 if by_rows else 8 * elements + 5
 
 
@@ -45,13 +46,16 @@ def order(columns: int, elements: int, by_rows: bool) -> Indices | None:
 
 
 def placed(columns: int, elements: int, by_rows: bool) -> Indices:
-    """Return the places in a matrix of the unknowns of every element; -1 on the core."""
+    """Return the rows of the matrix of the unknowns of every element, (elements, 18).
+
+    -1 on the core.
+    """
     numbers, by_place = unknowns(columns, elements), order(columns, elements, by_rows)
     return numbers if by_place is None else np.append(by_place, -1)[numbers]
 
 
 def place(row: Indices, column: Indices, band: int) -> Indices:
-    """Return places in banded storage of entries at some rows and columns of a matrix."""
+    """Return the places in banded storage, for dgbtrf, of entries at rows and columns."""
     return column * (3 * band + 1) + 2 * band + row - column
 
 
@@ -70,10 +74,10 @@ def slots(columns: int, elements: int, by_rows: bool) -> Indices:
 
 @lru_cache(maxsize=_MESHES_KEPT)
 def near_slots(columns: int, elements: int) -> Indices:
-    """Return places of the entries of every element, and of every element with the next of its row.
+    """Return places of the entries of each element, and of each with the next one in its row.
 
-    In banded storage, by columns, with twice as many diagonals above the main one; beyond it if
-    fixed.
+    In banded storage with twice as many diagonals above the main one as below it. Entries of fixed
+    nodes are placed behind its end.
     """
     numbers = unknowns(columns, elements)
     size, band = size_and_band(columns, elements)
@@ -95,7 +99,7 @@ def lower_slots(columns: int, elements: int, by_rows: bool) -> tuple[Indices, In
     band = size_and_band(columns, elements, by_rows)[1]
     row, column = np.broadcast_arrays(numbers[:, :, None], numbers[:, None, :])
     entries = np.flatnonzero(((column >= 0) & (row >= column)).ravel())
-    places = (column * band + row).ravel()[entries]  # the diagonal and so many below it
+    places = (column * band + row).ravel()[entries]  # columns of the diagonal and `band` below it
     entries.setflags(write=False)
     places.setflags(write=False)
     return entries, places

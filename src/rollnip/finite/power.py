@@ -1,12 +1,12 @@
-"""Heat inside a covering in steady rolling, from the work of the tractions on its surface.
+"""Heat generated in a covering in steady rolling, from the work of the tractions on its surface.
 
-The core turns the covering with the torque M that balances the tractions, and the surface runs
-under them: per distance of the undeformed surface
+The core drives the covering with the torque M that balances the tractions, while the surface moves
+under them. Per rolled distance of the undeformed surface the heat is
 
     w = M/R - int f . dx/ds ds,    M = int (f_y x + f_x (R - y)) ds,
 
-f the force per undeformed arc ds, x and y the present place. What is still held where the mesh
-ends is counted: it is lost later.
+with the force f per undeformed arc ds at the present place (x, y). Energy that the material still
+stores where it leaves the mesh is counted as heat, because it is lost later.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from __future__ import annotations
 import numpy as np
 
 from rollnip.finite.equilibrium import Body
-from rollnip.finite.pull import Tractions
+from rollnip.finite.follower_load import Tractions
 from rollnip.finite.strip import Array, on_circle
 
 
 def heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
-    """Return w of an equilibrium [N/mm], about 0 of elastic layers."""
+    """Return w of an equilibrium [N/mm]; about 0 for elastic layers."""
     surface, curvature = body.strip.surface, body.strip.depths.roller.curvature
     local = displacement[surface.unknowns]
     moved = np.moveaxis(surface.values @ local, -1, 0)

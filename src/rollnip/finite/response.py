@@ -1,13 +1,13 @@
-"""What finite strain of all orders adds to the linear displacement of a covering.
+"""The correction of the linear displacement of a covering by finite strain of all orders.
 
 Tractions and displacements belong to *present* places: the material now at x was at the arc
-x - u_x and is at the radius R - u_z. Elements give the displacement U at finite strain. What few of
-them are off is taken from the same mesh in linear theory, under the same tractions on the same
-elements: there the exact displacement is known. So
+x - u_x and is at the radius R - u_z. Finite elements give the displacement U at finite strain. The
+discretisation error of so few of them is subtracted: it is that of the same mesh in linear theory,
+where the exact displacement is known, with the same tractions on the same elements. So
 
     c(x) = U(x) - [u_elements(s; t') - u(s; t')] - u(x; t),    t'(s(x)) = t(x),
 
-u the linear displacement, t the tractions, and s the arc of the material that is at x now.
+with the linear displacement u, the tractions t, and the arc s of the material that is now at x.
 """
 
 from __future__ import annotations
@@ -16,44 +16,44 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rollnip.finite._smooth import Smoothing
+from rollnip.finite._low_pass import LowPass
 from rollnip.finite._spline import Spline
-from rollnip.finite.acting import Acting, Linear
 from rollnip.finite.columns import Columns
-from rollnip.finite.equilibrium import STILL, Body
+from rollnip.finite.equilibrium import Body
+from rollnip.finite.nodal_tractions import Linear, NodalTractions
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError
+from rollnip.finite.state import GMRES_TOLERANCE, MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
 CUT = 150.0
-"""Wave number over the half-width from which displacements are left out at small strains."""
-_NEAR = 4.0  # half-widths beyond which the surface is of no interest
-_FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
-_SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
-_STAYS = 0.01  # by which places may move and keep their mesh, over the width of the contact
-_SHARE = 0.01  # allowed error of equilibria, over the change since the last one
+"""Cut-off of the low-pass filter at small strains: wave number times the half-width."""
+_NEAR = 4.0  # half-widths beyond which the correction is not needed
+_FRONT = 0.8  # largest arc of the front side, over the radius: x increases with the arc there
+_SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
+_SAME_PLACE = 0.01  # largest move of column ends with which it is, over the width of the contact
+_STEP_TOLERANCE = 0.01  # tolerance of equilibria, over their first Newton step
 # While tractions are far from their solution:
-_COARSE_WAVE_SHARE = 0.5  # of the wave numbers that are kept
-_COARSE_MOVE_FACTOR = 2.5  # times `_STAYS`
+_COARSE_WAVE_SHARE = 0.5  # factor of the cut-off
+_COARSE_MOVE_FACTOR = 2.5  # factor of `_SAME_PLACE`
 _COARSE_MOVE_FACTOR_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
-_COARSE_RESIDUAL = 1e-4  # that an iterative solution leaves, over the loads
+_COARSE_RESIDUAL = 1e-4  # relative residual of iterative linear solutions
 
-_SAME_SIZE = 0.05  # change of a contact, over its half-width, that keeps the points of smoothing
-_LEAST_SHARE = 0.1  # of a step between tractions
-_MOST_MESHES = 6
+_SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
+_LEAST_FRACTION = 0.1  # of the tractions, or of their change, until which load steps are halved
+_MOST_MESHES = 6  # until the columns lie where they should
 
 
 @dataclass(frozen=True)
 class DeformedSurface:
-    """The outer surface of a covering, deformed, at the ends of elements.
+    """The deformed outer surface of a covering, at the ends of columns.
 
     Attributes
     ----------
-    arcs : (n,) where the material was [mm].
-    x, y : (n,) where it is; both 0 at the point of first touch, y into the roller [mm].
+    arcs : (n,) undeformed arcs of the material [mm].
+    x, y : (n,) its present place; both 0 at the point of first touch, y into the roller [mm].
     u_x : (n,) x less the arc [mm].
-    u_z : (n,) radius of the roller less the present distance from its axle [mm].
+    u_z : (n,) radius of the roller less the present distance from its axis [mm].
     """
 
     arcs: Array
@@ -65,28 +65,28 @@ class DeformedSurface:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """An equilibrium of a covering, from which that of one much like it is found.
+    """An equilibrium of a covering, stored as a start for a similar covering.
 
     Attributes
     ----------
-    ends : (columns + 1,) arcs of the ends of elements [mm].
-    loaded : the columns under the tractions.
+    ends : (columns + 1,) arcs of the ends of columns [mm].
+    loaded : the ends under the tractions.
     displacement : (unknowns,) [mm].
     pressure : (elements, 3), see `MeshState` [MPa].
-    acting : the tractions.
-    speed : V at which viscoelastic layers pass [mm/s].
+    applied : the tractions.
+    speed : V at which the covering passes [mm/s]; viscoelastic layers need it.
     """
 
     ends: Array
     loaded: slice
     displacement: Array
     pressure: Array
-    acting: Acting
+    applied: NodalTractions
     speed: float | None
 
 
 def deformed_surface(body: Body, state: MeshState) -> DeformedSurface:
-    """Return where the surface of a mesh is."""
+    """Return the deformed surface of a mesh."""
     strip, curvature = body.strip, body.strip.depths.roller.curvature
     moved, arcs = strip.on_surface(state.displacement)[::2], strip.ends
     x, y = on_circle(arcs, curvature)
@@ -95,7 +95,7 @@ def deformed_surface(body: Body, state: MeshState) -> DeformedSurface:
 
 
 def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
-    """Return u_x along the surface and u_z into the roller of linear theory, at the same points."""
+    """Return u_x along and u_z into the undeformed roller, at the same points (linear theory)."""
     moved = body.strip.on_surface(displacement)[::2]
     angle = body.strip.depths.roller.curvature * body.strip.ends
     cos, sin = np.cos(angle), np.sin(angle)
@@ -103,38 +103,38 @@ def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
 
 
 class FiniteResponse:
-    """Displacement beyond the linear one of a covering under tractions, evaluated repeatedly.
+    """The correction of one covering, evaluated repeatedly under changing tractions.
 
-    Each equilibrium starts from the one before, the first from one given, if any. Where none is
-    found, that under tractions between the last and the new ones is looked for; the first ones
-    begin at a share of themselves.
+    Each equilibrium starts from the one before, the first from ``start`` if that is given. Where
+    none is found, the load step is halved: from the last tractions towards the new ones or, at the
+    first evaluation, from zero.
 
     Attributes
     ----------
-    is_found : whether there was an equilibrium; else the last displacement is returned.
-    share : of the step from the last tractions to the new ones for which there was one.
-    rough : the displacement before it was smoothed.
-    moved : the tractions at the arcs of the material that they act on; None: no traction.
-    lost : heat inside per distance beyond that of linear theory under these [N/mm]; 0 in elastic
-        layers.
+    is_found : whether an equilibrium was found; if not, the last correction is returned again.
+    load_fraction : of the step from the last tractions to the new ones at which it was found.
+    rough : the correction before the low-pass filter.
+    arc_tractions : the tractions at the arcs of the material that they act on; None without any.
+    extra_heat : heat per rolled distance beyond that of linear theory under ``arc_tractions``
+        [N/mm]; 0 where all layers are elastic.
 
     Parameters
     ----------
     roller :
         with a rigid core.
     half_width :
-        of the contact, roughly [mm]: it sets the elements over the depth.
+        of the contact, roughly [mm]; it sets the elements over the depth.
     linear :
         the displacement of its surface in linear theory.
     cut :
-        wave number, over the half-width of the tractions, of which half is left; more under a thin
-        skin.
+        cut-off of the filter: wave number times the half-width of the tractions. A thin stiff skin
+        may raise it.
     speed :
-        V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
+        V at which the covering passes [mm/s]; viscoelastic layers need it.
     start :
-        an equilibrium of a covering much like this one; it counts where it has as many elements.
-    kept :
-        share of all these wave numbers, those under a thin skin too.
+        equilibrium of a similar covering; used if it has as many elements.
+    cut_factor :
+        factor of the cut-off, also of the one for a skin.
     """
 
     def __init__(
@@ -145,35 +145,35 @@ class FiniteResponse:
         cut: float = CUT,
         speed: float | None = None,
         start: Equilibrium | None = None,
-        kept: float = 1.0,
+        cut_factor: float = 1.0,
     ) -> None:
         self._linear = linear
         self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
-        self._cut, self._kept = cut, kept
+        self._cut, self._cut_factor = cut, cut_factor
         self._columns = Columns.of(roller, half_width)
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
             self._near = min(self._near, _FRONT * roller.radius)
-        self._mesh = None if start is None else self._begun(start)
-        self._share_kept = 1.0
-        self._move_factor, self._left = 1.0, LEFT
-        self._coarsest_move = (
+        self._mesh = None if start is None else self._mesh_from(start)
+        self._coarse_factor = 1.0
+        self._move_factor, self._gmres_tolerance = 1.0, GMRES_TOLERANCE
+        self._coarse_move_factor = (
             _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
         )
-        self._off: Array | None = None
-        self._smoothing: Smoothing | None = None
-        self._smoothed_for: Array | None = None
-        self._made: tuple[Spline, ...] | None = None
+        self._linear_error: Array | None = None
+        self._low_pass: LowPass | None = None
+        self._low_pass_made_for: Array | None = None
+        self._last_correction: tuple[Spline, ...] | None = None
         self.rough: tuple[Spline, ...] = ()
         self.is_found = True
-        self.share = 1.0
-        self.lost = 0.0
-        self.moved: Acting | None = None
+        self.load_fraction = 1.0
+        self.extra_heat = 0.0
+        self.arc_tractions: NodalTractions | None = None
 
     @property
     def equilibrium(self) -> Equilibrium | None:
-        """The last equilibrium; None: there was none."""
+        """The last equilibrium; None where there was none."""
         if self._mesh is None:
             return None
         body, state = self._mesh.body, self._mesh.state
@@ -182,19 +182,19 @@ class FiniteResponse:
             self._mesh.loaded,
             state.displacement,
             state.pressure,
-            self._mesh.acting,
+            self._mesh.applied,
             body.speed,
         )
 
-    def _begun(self, start: Equilibrium) -> _LoadedMesh | None:
+    def _mesh_from(self, start: Equilibrium) -> _LoadedMesh | None:
         flat = Body(Strip(self._depths, start.ends), self._speed)
         if flat.strip.size != start.displacement.size:
             return None
         body = flat if self._speed is None else replace(flat, speed=start.speed)
         state = MeshState(start.displacement, start.pressure)
-        return _LoadedMesh(flat, body, state, start.loaded, start.acting)
+        return _LoadedMesh(flat, body, state, start.loaded, start.applied)
 
-    def displacement(
+    def correction(
         self,
         nodes: Array,
         pressure: Array,
@@ -202,158 +202,165 @@ class FiniteResponse:
         rate: float = 1.0,
         *,
         roughly: bool = False,
-        is_parted: bool = False,
+        has_several_zones: bool = False,
     ) -> tuple[Spline, ...]:
-        """Return u_x and u_z beyond the linear ones as functions of the present place x.
+        """Return the corrections of u_x and u_z as functions of the present place x.
 
         Parameters
         ----------
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         rate : speed of the undeformed surface over that of linear theory.
-        roughly : whether less is good enough while tractions are far from their solution: a mesh
-            of before if the contact has not moved far, its errors as they were, and half the waves.
-        is_parted : whether stick and slip meet within the contact, see `Columns.places`.
+        roughly : save time while tractions are far from their solution: keep the last mesh even if
+            the contact has moved a little more, and its error as last evaluated; half the cut-off.
+        has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
         """
-        self._left = _COARSE_RESIDUAL if roughly else LEFT
-        self._share_kept = _COARSE_WAVE_SHARE if roughly else 1.0
-        self._move_factor = self._coarsest_move if roughly else 1.0
+        self._gmres_tolerance = _COARSE_RESIDUAL if roughly else GMRES_TOLERANCE
+        self._coarse_factor = _COARSE_WAVE_SHARE if roughly else 1.0
+        self._move_factor = self._coarse_move_factor if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
-            self.rough, self.lost, self.moved = _nothing(nodes), 0.0, None
+            self.rough, self.extra_heat, self.arc_tractions = _no_correction(nodes), 0.0, None
             return self.rough
-        places, loaded = self._columns.places(nodes, pressure, is_parted=is_parted)
-        acting = Acting.on(nodes, pressure, shear)
+        places, loaded = self._columns.places(nodes, pressure, has_several_zones=has_several_zones)
+        applied = NodalTractions.on(nodes, pressure, shear)
         try:
-            self.share = 1.0
-            mesh = self._solved(places, loaded, acting) or self._partly(acting)
+            self.load_fraction = 1.0
+            mesh = self._full_or_first_step(places, loaded, applied) or self._load_step(applied)
         except NoEquilibriumError:
             self.is_found = False
             self._mesh = None
-            self.rough = self._made = self._made or _nothing(nodes)
-            return self._made
+            self.rough = self._last_correction = self._last_correction or _no_correction(nodes)
+            return self._last_correction
         self.is_found, self._mesh = True, mesh
-        self.rough = self._beyond_linear(mesh, roughly=roughly)
+        self.rough = self._unfiltered_correction(mesh, roughly=roughly)
         start, stop = places[loaded][[0, -1]]
-        self._made = self._smoothing_for(float(start), float(stop))(self.rough)
-        return self._made
+        self._last_correction = self._low_pass_for(float(start), float(stop))(self.rough)
+        return self._last_correction
 
-    def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
-        """Return u_x and u_z of an equilibrium beyond those of linear theory."""
+    def _unfiltered_correction(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
+        """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
-        if not roughly or self._off is None or self._off.shape != u.shape:
-            self._off = self._error_in_linear_theory(mesh, x, surface.arcs[near])
-        u -= self._off + mesh.acting.linear_displacement(self._linear, x)
-        through = Spline.bending if self._columns.skin < np.inf else Spline.through
-        return tuple(through(x, row) for row in u)
+        if not roughly or self._linear_error is None or self._linear_error.shape != u.shape:
+            self._linear_error = self._error_in_linear_theory(mesh, x, surface.arcs[near])
+        u -= self._linear_error + mesh.applied.linear_displacement(self._linear, x)
+        spline = Spline.natural_quintic if self._columns.skin < np.inf else Spline.natural_cubic
+        return tuple(spline(x, row) for row in u)
 
-    def _smoothing_for(self, start: float, stop: float) -> Smoothing:
-        """Return the smoothing for a contact; the same while the contact is about the same."""
+    def _low_pass_for(self, start: float, stop: float) -> LowPass:
+        """Return the filter for a contact; the last one as long as that has about its size."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
-        cut = self._kept * self._share_kept * max(self._cut / half, self._columns.cut)
-        given, last = np.array([middle, half, 1.0 / cut]), self._smoothed_for
+        cut = self._cut_factor * self._coarse_factor * max(self._cut / half, self._columns.cut)
+        given, last = np.array([middle, half, 1.0 / cut]), self._low_pass_made_for
         sizes = np.array([half, half, 1.0 / cut])
         if last is None or np.any(np.abs(given - last) > _SAME_SIZE * sizes):
-            self._smoothed_for = given
-            self._smoothing = Smoothing.of(middle, min(_NEAR * half, self._near), cut)
-        assert self._smoothing is not None
-        return self._smoothing
+            self._low_pass_made_for = given
+            self._low_pass = LowPass.of(middle, min(_NEAR * half, self._near), cut)
+        assert self._low_pass is not None
+        return self._low_pass
 
     def _error_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
-        """Return the error of the elements in linear theory, (2, n).
+        """Return the discretisation error of the mesh in linear theory, (2, n); set `extra_heat`.
 
-        Under the tractions on the material that they act on now: the elements are loaded as at
-        finite strain.
+        Tractions act on the same material as at finite strain, so that the elements are loaded
+        alike and their errors cancel.
         """
-        self.moved = moved = mesh.acting.moved(x, arcs)
-        tractions = moved.tractions
-        linear = mesh.flat.linear_displacements(tractions, self._left)
+        self.arc_tractions = moved = mesh.applied.at_arcs(x, arcs)
+        tractions = moved.as_function
+        linear = mesh.flat.linear_displacements(tractions, self._gmres_tolerance)
         if mesh.body.memory is not None:
-            heat = heat_inside(mesh.body, mesh.state.displacement, mesh.acting.tractions)
-            self.lost = heat - linear_heat_inside(mesh.flat, linear, tractions)
+            heat = heat_inside(mesh.body, mesh.state.displacement, mesh.applied.as_function)
+            self.extra_heat = heat - linear_heat_inside(mesh.flat, linear, tractions)
         near = np.abs(mesh.flat.strip.ends) < self._near
         made = np.stack(linear_surface(mesh.flat, linear))[:, near]
         made -= moved.linear_displacement(self._linear, arcs)
         return made
 
-    def _solved(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh | None:
-        """Return the equilibrium, on the mesh of the last tractions if these were about here.
+    def _full_or_first_step(
+        self, places: Array, loaded: slice, applied: NodalTractions
+    ) -> _LoadedMesh | None:
+        """Return the equilibrium under some tractions, or at first under a share of them.
 
-        None where there is no equilibrium but there was one under the last tractions. Of the first
-        ones a share counts, too.
+        None where there is none but there was one under the last tractions.
         """
         try:
-            return self._solved_now(places, loaded, acting)
+            return self._equilibrium_under(places, loaded, applied)
         except NoEquilibriumError:
-            return None if self._mesh is not None else self._lightly(places, loaded, acting)
+            return (
+                None if self._mesh is not None else self._first_load_step(places, loaded, applied)
+            )
 
-    def _lightly(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
-        """Return an equilibrium under a share of the first tractions."""
-        while self.share > _LEAST_SHARE:
-            self.share *= 0.5
+    def _first_load_step(
+        self, places: Array, loaded: slice, applied: NodalTractions
+    ) -> _LoadedMesh:
+        """Return the equilibrium under half of the first tractions, or a quarter, and so on."""
+        while self.load_fraction > _LEAST_FRACTION:
+            self.load_fraction *= 0.5
             try:
-                return self._solved_now(places, loaded, acting.times(self.share))
+                return self._equilibrium_under(places, loaded, applied.times(self.load_fraction))
             except NoEquilibriumError:
                 continue
         raise NoEquilibriumError
 
-    def _partly(self, acting: Acting) -> _LoadedMesh:
-        """Return an equilibrium with only a share of the step from the last tractions to these."""
+    def _load_step(self, applied: NodalTractions) -> _LoadedMesh:
+        """Return the equilibrium half-way from the last tractions to these, or a quarter, ..."""
         last = self._mesh
         assert last is not None
-        while self.share > _LEAST_SHARE:
-            self.share *= 0.5
-            mixed = last.acting.towards(acting, self.share)
+        while self.load_fraction > _LEAST_FRACTION:
+            self.load_fraction *= 0.5
+            mixed = last.applied.towards(applied, self.load_fraction)
             start = MeshState(last.state.displacement, last.state.pressure)
             try:
-                state = last.body.equilibrium(mixed.tractions, start)
+                state = last.body.equilibrium(mixed.as_function, start)
             except NoEquilibriumError:
                 continue
-            return replace(last, state=state, acting=mixed)
+            return replace(last, state=state, applied=mixed)
         raise NoEquilibriumError
 
-    def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
-        """Return the equilibrium under these tractions."""
-        last, tractions = self._mesh, acting.tractions
-        stays = self._move_factor * _STAYS * float(np.ptp(places[loaded]))
-        if last is not None and last.is_near(places[loaded], self._speed_now, stays):
-            state = last.body.equilibrium(tractions, last.state, STILL, _SHARE)
-            return replace(last, state=state, acting=acting)
+    def _equilibrium_under(
+        self, places: Array, loaded: slice, applied: NodalTractions
+    ) -> _LoadedMesh:
+        """Return the equilibrium under these tractions, on the last mesh if that lies well."""
+        last, tractions = self._mesh, applied.as_function
+        tolerance = self._move_factor * _SAME_PLACE * float(np.ptp(places[loaded]))
+        if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
+            state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
+            return replace(last, state=state, applied=applied)
         if last is not None:
-            flat, body, state = self._moved(last, places, loaded)
+            flat, body, state = self._remeshed(last, places, loaded)
         else:
-            moved = acting.linear_displacement(self._linear, places[loaded])[0]
-            flat, body = self._on(places, loaded, places[loaded] - moved)
-            arcs = acting.moved(places[loaded], places[loaded] - moved)
-            state = flat.linear_state(arcs.tractions, self._left)
+            moved = applied.linear_displacement(self._linear, places[loaded])[0]
+            flat, body = self._bodies_on(places, loaded, places[loaded] - moved)
+            arcs = applied.at_arcs(places[loaded], places[loaded] - moved)
+            state = flat.linear_state(arcs.as_function, self._gmres_tolerance)
         for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state, STILL, _SHARE)
-            mesh = _LoadedMesh(flat, body, state, loaded, acting)
-            if mesh.is_near(places[loaded], None, stays):
+            state = body.equilibrium(tractions, state, step_tolerance=_STEP_TOLERANCE)
+            mesh = _LoadedMesh(flat, body, state, loaded, applied)
+            if mesh.is_near(places[loaded], None, tolerance):
                 break
-            flat, body, state = self._moved(mesh, places, loaded)
+            flat, body, state = self._remeshed(mesh, places, loaded)
         return mesh
 
-    def _moved(
+    def _remeshed(
         self, mesh: _LoadedMesh, places: Array, loaded: slice
     ) -> tuple[Body, Body, MeshState]:
-        """Return a mesh whose loaded columns come to lie at their places, with a state."""
+        """Return a mesh whose loaded columns lie at their present places, and the state on it."""
         surface = deformed_surface(mesh.body, mesh.state)
         strip, state = mesh.body.strip, mesh.state
         front = np.abs(surface.arcs) < _FRONT / max(strip.depths.roller.curvature, 1e-300)
         if not front.any():
             raise NoEquilibriumError
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
-        flat, body = self._on(places, loaded, under)
+        flat, body = self._bodies_on(places, loaded, under)
         return flat, body, state.on_columns(strip, body.strip)
 
-    def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
-        """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.
+    def _bodies_on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
+        """Return a mesh with loaded columns at the arcs ``under``: for linear theory, and as it is.
 
-        Raises `NoEquilibriumError` where they do not increase: material has passed by other
-        material, or has left the places of the tractions.
+        Raises `NoEquilibriumError` where arcs do not increase: the surface folds over, or has left
+        the places of the tractions.
         """
         arcs = places.copy()
         arcs[: loaded.start] += under[0] - places[loaded.start]
@@ -367,26 +374,26 @@ class FiniteResponse:
 
 @dataclass(frozen=True)
 class _LoadedMesh:
-    """A mesh in equilibrium: as it is in linear theory, at finite strain, and its tractions."""
+    """A mesh, for linear theory (``flat``) and at the speed of finite strain, in equilibrium."""
 
     flat: Body
     body: Body
     state: MeshState
     loaded: slice
-    acting: Acting
+    applied: NodalTractions
 
-    def is_near(self, places: Array, speed: float | None, stays: float) -> bool:
-        """Return whether the loaded columns are about at some places and pass about as fast."""
+    def is_near(self, places: Array, speed: float | None, tolerance: float) -> bool:
+        """Return whether loaded columns lie at some places, within a tolerance, at that speed."""
         own = self.body.speed
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
         here = deformed_surface(self.body, self.state).x[self.loaded]
         if here.size != places.size:
             return False
-        return float(np.abs(here - places).max()) <= stays
+        return float(np.abs(here - places).max()) <= tolerance
 
 
-def _nothing(nodes: Array) -> tuple[Spline, Spline]:
-    """Return no displacement."""
-    flat = Spline.through(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
+def _no_correction(nodes: Array) -> tuple[Spline, Spline]:
+    """Return corrections that are zero."""
+    flat = Spline.natural_cubic(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
     return flat, flat

@@ -1,4 +1,4 @@
-"""States of a mesh, and the factorised derivative of its forces."""
+"""States of a mesh, the fields that follow from them, and the factorised tangent stiffness."""
 
 from __future__ import annotations
 
@@ -7,80 +7,117 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.strip import Array, Indices, Strip, quadratics
-from rollnip.finite.viscous import Relaxing
+from rollnip.materials import Slopes
 
-LEFT = 1e-7  # of the loads by an iterative solution
-_KEPT = 60  # directions of the iterative solution before it restarts
-_MOST_STARTS = 3
+GMRES_TOLERANCE = 1e-7  # relative residual of an iterative linear solution
+_KRYLOV_VECTORS = 60  # before GMRES restarts
+_MOST_GMRES_CYCLES = 3
 
 
 class NoEquilibriumError(ArithmeticError):
-    """No equilibrium was found: an element is turned inside out, or steps do not settle."""
+    """No equilibrium was found: an element is inverted, or Newton's method does not converge."""
+
+
+@dataclass(frozen=True)
+class PointFields:
+    """Deformation and stresses of a state, from which forces and tangent are assembled.
+
+    Attributes
+    ----------
+    deformation : (4, elements, 9) F at the Gauss points, see `Strip.deformation`.
+    c : (elements, 9) G w_J + c, the factor of cof F.
+    isotropic : (elements, 9) 2 G w_I, the factor of F.
+    pressure_step : (elements, 3) change of the pressures by a Newton step without displacements.
+    pressure_rate : (elements, 3, 3) derivatives of the pressures by the volumes.
+    energy_slopes : G times the derivatives of w; None where those of second order are zero.
+    relaxing : stresses that relax; None where all layers are elastic.
+    """
+
+    deformation: Array
+    c: Array
+    isotropic: Array
+    pressure_step: Array
+    pressure_rate: Array
+    energy_slopes: Slopes | None
+    relaxing: RelaxingStress | None
 
 
 @dataclass(frozen=True)
 class Tangent:
-    """Factors of the derivative of the forces by the displacements at some state.
+    """Factorised tangent stiffness of a state, with the pressures eliminated.
+
+    With viscoelastic layers the stress in a column depends on all columns upstream. The factors
+    hold the contributions of each element and of the next one in its row; the rest is applied
+    without being stored, in GMRES with the factors as preconditioner.
 
     Attributes
     ----------
-    bands : diagonals below the main one and above it.
-    factors, pivots : as LAPACK's dgbtrf leaves them; without pivots, as dpbtrf does.
-    means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
-    rate : (elements, 3, 18) derivatives of the pressures.
-    relaxing : what the factors leave out, the memory of columns beyond the next; None: nothing.
-    order : place in the matrix of each unknown; None: as they are.
+    bands : number of diagonals below the main one and above it.
+    factors, pivots : from LAPACK's dgbtrf; where ``pivots`` is None, from dpbtrf.
+    volume_derivatives : (elements, 3, 18) derivatives of int J N dV by the displacements of an
+        element, N the functions of the basis `LINEAR`.
+    pressure_derivatives : (elements, 3, 18) derivatives of the pressures likewise.
+    relaxing : derivative of the relaxing forces, for what the factors leave out; None where all
+        layers are elastic.
+    order : (unknowns,) the row of the matrix of each unknown; None: in order.
     """
 
     bands: tuple[int, int]
     factors: Array
     pivots: Indices | None
-    means: Array
-    rate: Array
-    relaxing: Relaxing | None = None
+    volume_derivatives: Array
+    pressure_derivatives: Array
+    relaxing: RelaxingTangent | None = None
     order: Indices | None = None
 
-    def solved(self, loads: Array, left: float = LEFT) -> Array:
-        """Return the displacements that balance some loads, (unknowns,).
+    def solve(self, forces: Array, rtol: float = GMRES_TOLERANCE) -> Array:
+        """Return the displacements under some nodal forces, (unknowns,).
 
-        ``left``: the share of the loads that an iterative solution may leave over.
+        ``rtol``: relative residual of the iterative solution, if there is one.
         """
-        first = self._near(loads)
+        first = self._by_factors(forces)
         if self.relaxing is None:
             return first
         from scipy.sparse.linalg import LinearOperator, gmres  # nothing elastic needs it
 
-        relaxing, size = self.relaxing, loads.size
+        relaxing, size = self.relaxing, forces.size
 
         def applied(displacement: Array) -> Array:
-            return displacement + self._near(relaxing.from_far(displacement))
+            return displacement + self._by_factors(relaxing.far_forces(displacement))
 
         whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
         out, failed = gmres(
-            whole, first, x0=first, rtol=left, atol=0.0, restart=_KEPT, maxiter=_MOST_STARTS
+            whole,
+            first,
+            x0=first,
+            rtol=rtol,
+            atol=0.0,
+            restart=_KRYLOV_VECTORS,
+            maxiter=_MOST_GMRES_CYCLES,
         )
         if failed != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out)
 
-    def pressures(self, local: Array) -> Array:
-        """Return the pressures, (elements, 3), of the elements' displacements (elements, 18)."""
-        made = (self.rate @ local[..., None])[..., 0]
+    def pressure_changes(self, local: Array) -> Array:
+        """Return the changes of the pressures (elements, 3) by displacements (elements, 18)."""
+        made = (self.pressure_derivatives @ local[..., None])[..., 0]
         if self.relaxing is not None:
-            made += self.relaxing.pressures(local)
+            made += self.relaxing.pressure_changes(local)
         return np.asarray(made)
 
-    def _near(self, loads: Array) -> Array:
-        """Return the displacements without the memory of columns beyond the next."""
+    def _by_factors(self, forces: Array) -> Array:
+        """Return the displacements by the factors alone, without what they leave out."""
         if self.order is not None:
-            by_place = np.empty_like(loads)
-            by_place[self.order] = loads
-            loads = by_place
+            by_place = np.empty_like(forces)
+            by_place[self.order] = forces
+            forces = by_place
         if self.pivots is None:
-            out, info = lapack.dpbtrs(self.factors, loads, lower=1)
+            out, info = lapack.dpbtrs(self.factors, forces, lower=1)
         else:
-            out, info = lapack.dgbtrs(self.factors, *self.bands, loads, self.pivots)
+            out, info = lapack.dgbtrs(self.factors, *self.bands, forces, self.pivots)
         if info != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out if self.order is None else out[self.order])
@@ -88,14 +125,14 @@ class Tangent:
 
 @dataclass(frozen=True)
 class MeshState:
-    """A state of a mesh.
+    """Displacements and pressures of a mesh.
 
     Attributes
     ----------
     displacement : (unknowns,) [mm].
-    pressure : (elements, 3) in the basis `LINEAR`, c + r G of P = 2 G w_I F + (G w_J + c) cof F
-        [MPa].
-    tangent : derivative near here, if it is known.
+    pressure : (elements, 3) coefficients in the basis `LINEAR` of c + r G, with c of
+        P = 2 G w_I F + (G w_J + c) cof F [MPa].
+    tangent : tangent stiffness of a state near this one, if there is one.
     """
 
     displacement: Array
@@ -103,10 +140,10 @@ class MeshState:
     tangent: Tangent | None = field(default=None, repr=False, compare=False)
 
     def on_columns(self, strip: Strip, other: Strip) -> MeshState:
-        """Return the state of mesh ``strip`` on a mesh of other columns, by its own elements.
+        """Return this state of the mesh ``strip`` on a mesh ``other`` with other columns.
 
-        Beyond the ends of ``strip`` displacements are those of the end, and so are the pressures
-        in the middle of elements.
+        Displacements are interpolated by the shape functions of the elements, pressures by their
+        linear ones. Beyond the ends of ``strip`` both have their values at the end.
         """
         at, place, _ = _elements_at(strip, other.arcs)
         nodes = self.displacement.reshape(strip.arcs.size, -1)[2 * at[:, None] + np.arange(3)]
@@ -119,7 +156,7 @@ class MeshState:
 
 
 def _elements_at(strip: Strip, arcs: Array) -> tuple[Indices, Array, Array]:
-    """Return the columns of some arcs, the places in them on [-1, 1] and their half lengths."""
+    """Return the columns that hold some arcs, the places there on [-1, 1] and half lengths [mm]."""
     at = np.clip(np.searchsorted(strip.ends, arcs) - 1, 0, strip.columns - 1)
     half = 0.5 * np.diff(strip.ends)[at]
     return at, np.clip((arcs - strip.arcs[2 * at + 1]) / half, -1.0, 1.0), half

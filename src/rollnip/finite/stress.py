@@ -1,11 +1,11 @@
-"""Stresses and stretches inside a covering at finite strain, from a state of its elements.
+"""Stresses and strains inside a covering at finite strain, from a state of its mesh.
 
-Cauchy stress  J s = P F^T,  with the nominal stress P of `rollnip.finite.equilibrium`. Along the
-axle, where nothing is stretched,  s_yy = G w_3/J + c,  w_3 = dw/dl3 at l3 = 1.
+The Cauchy stress s is  J s = P F^T,  with the nominal stress P of `rollnip.finite.equilibrium`.
+Along the axis, where nothing is stretched,  s_yy = G w_3/J + c,  w_3 = dw/dl3 at l3 = 1.
 
-Components belong to the present lines of constant undeformed depth: x along such a line, z across
-it into the roller. At the surface s_zz = -p and s_xz = -q then hold at any strain, at a bond they
-are what it carries, and at small strains they are the polar components of linear theory.
+Components refer to the deformed lines of constant depth: x along such a line, z normal to it, into
+the roller. So s_zz = -p and s_xz = -q at the surface at any strain, at a bond s_zz and s_xz are the
+tractions that it carries, and at small strains all are the polar components of linear theory.
 """
 
 from __future__ import annotations
@@ -16,19 +16,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.finite.equilibrium import Body
+from rollnip.finite.relaxing_stress import RelaxingStress
 from rollnip.finite.state import MeshState
 from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
-from rollnip.finite.viscous import Viscous
 from rollnip.materials import Energy, NeoHookean
 
 PARTS = ("u_x", "u_z", "s_xx", "s_zz", "s_xz", "s_yy", "e_xx", "e_zz", "e_xz", "energy")
-"""What `element_fields` returns, in this order."""
+"""The fields that `element_fields` returns, in this order."""
 Masked = tuple[Energy, NDArray[np.bool_]]
 
 
 @dataclass(frozen=True)
-class _Law:
-    """Constants of every element: G and lambda (elements, 1), the energies with their elements."""
+class _ElementMaterials:
+    """Material of every element.
+
+    Attributes
+    ----------
+    shear, lame, rest : (elements, 1) G, lambda and r.
+    rigid : (elements, 1) whether incompressible.
+    energies : the different strain energies, each with the mask of the elements that have it.
+    """
 
     shear: Array
     lame: Array
@@ -37,7 +44,7 @@ class _Law:
     energies: list[Masked]
 
     @classmethod
-    def of(cls, strip: Strip) -> _Law:
+    def of(cls, strip: Strip) -> _ElementMaterials:
         materials = [layer.material for layer in strip.depths.roller.layers]
         given = [material.energy or NeoHookean() for material in materials]
         different = list(dict.fromkeys(given))
@@ -58,38 +65,37 @@ class _Law:
 def element_fields(
     body: Body, state: MeshState, along: Array, down: Array, near: float | None = None
 ) -> tuple[Array, Array]:
-    """Return the fields of a state at the same places of every element.
+    """Return the fields of a state at the same points of every element.
 
     Parameters
     ----------
     body, state :
         a mesh and its equilibrium.
     along, down :
-        (points,) places in each element, from -1 to 1.
+        (points,) coordinates in each element along the arc and over the depth, from -1 to 1.
     near :
-        abscissa beyond which places follow the arc [mm]; None: the state is so small that linear
-        theory holds. Places are then undeformed arcs, and displacements those along and into the
-        undeformed roller.
+        abscissa beyond which places grow with the angle [mm]. None: the state is that of linear
+        theory; places are then undeformed arcs, and displacements the polar ones.
 
     Returns
     -------
     Present places (columns, rows, points) [mm]: x/(1 - z/R) with the undeformed depth z, at the
-    surface x itself; beyond ``near`` they grow with the angle.
+    surface x itself; beyond ``near`` they grow with the angle. ``rows`` are those of elements.
 
     Fields (parts, columns, rows, points), the parts named by `PARTS`: displacements along and into
-    the roller, defined as at its surface [mm]; stresses [MPa]; stretches less 1 along and across
-    the present line of constant depth, and half the shear angle; strain energy per undeformed
-    volume [MPa], with half the product of relaxing stress and strain.
+    the roller, defined as at its surface [mm]; stresses [MPa]; stretches along and across the
+    deformed line of constant depth, less 1, and half the shear angle; strain energy per undeformed
+    volume, with half the product of relaxing stress and strain [MPa].
     """
-    strip, viscous = body.strip, body.relaxing(state)
-    law = _Law.of(strip)
+    strip, relaxing = body.strip, body.relaxing_stress(state)
+    law = _ElementMaterials.of(strip)
     local = strip.local(state.displacement).reshape(-1, 2, 9).transpose(0, 2, 1)
     arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
     at = np.stack([along, down], axis=-1)
     c, stored = _volume_law(strip, law, state, at)
     held = None
-    if viscous is not None:
-        held = _projected(strip, _relaxed(law, viscous), at)
+    if relaxing is not None:
+        held = _projected(strip, _relaxing_at_points(law, relaxing), at)
         c, stored = c + held[..., 3], stored + held[..., 5]
     stretch = np.hypot(hoop[..., 0], hoop[..., 1])
     tangent = hoop / stretch[..., None]
@@ -98,7 +104,7 @@ def element_fields(
     thinning = ratio / stretch
     stress, axial, energy = _stresses(law, (hoop, inward, ratio), c)
     if held is not None:
-        stress += _pushed(held, hoop, inward) / ratio[..., None]
+        stress += _push_forward(held, hoop, inward) / ratio[..., None]
         axial += held[..., 4] / ratio
     curvature = strip.depths.roller.curvature
     if near is None:
@@ -117,14 +123,17 @@ def element_fields(
         0.5 * np.arctan2((inward * tangent).sum(axis=-1), thinning),
         energy + stored,
     ]
-    shape = (strip.columns, strip.depths.owner.size, along.size)
+    shape = (strip.columns, strip.depths.row_layers.size, along.size)
     return place.reshape(shape), np.stack(parts).reshape(-1, *shape)
 
 
 def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Array, ...]:
-    """Return arc, depth, displacement, and F on the unit vectors along and into the roller."""
+    """Return arcs, depths, displacements, and F on the unit vectors along and into the roller.
+
+    The former two (elements, points) [mm], the others (elements, points, 2) with x and y.
+    """
     (n_s, d_s), (n_z, d_z) = quadratics(along), quadratics(down)
-    z, rows = strip.depths.ends, strip.depths.owner.size
+    z, rows = strip.depths.ends, strip.depths.row_layers.size
     half_s = np.repeat(0.5 * np.diff(strip.ends), rows)[:, None]
     half_z = np.tile(0.5 * np.diff(z), strip.columns)[:, None]
     arc = np.repeat(strip.arcs[1::2], rows)[:, None] + half_s * along
@@ -144,7 +153,7 @@ def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Ar
 def _places(
     curvature: float, arc: Array, depth: Array, moved: Array, near: float
 ) -> tuple[Array, ...]:
-    """Return places, and u_x and u_z: at the depth as they are defined at the surface."""
+    """Return present places, u_x and u_z at depth, defined as at the surface of the roller."""
     shrink = 1.0 - curvature * depth
     x, y = on_circle(arc, curvature)
     x, y = x * shrink + moved[..., 0], depth + y * shrink + moved[..., 1]
@@ -153,9 +162,9 @@ def _places(
 
 
 def present_place(x: Array, y: Array, depth: Array, circle: tuple[float, float]) -> Array:
-    """Return x/(1 - z/R) of points (x, y) of undeformed depth z; far off it grows with the angle.
+    """Return the place x/(1 - z/R) of points (x, y) of undeformed depth z [mm].
 
-    ``circle``: 1/R, and the abscissa up to which it is that.
+    ``circle``: 1/R, and the abscissa beyond which the place grows with the angle instead.
     """
     curvature, near = circle
     if curvature == 0.0:
@@ -173,8 +182,10 @@ def _polar(angle: Array, moved: Array) -> tuple[Array, Array]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[Array, Array]:
-    """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at places ``at`` (points, 2)."""
+def _volume_law(
+    strip: Strip, law: _ElementMaterials, state: MeshState, at: Array
+) -> tuple[Array, Array]:
+    """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at points ``at`` (points, 2)."""
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     c = state.pressure @ basis - law.rest * law.shear
     if law.rigid.all():
@@ -184,7 +195,7 @@ def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[A
 
     def projected(values: Array) -> Array:
         sums = (strip.volumes * values) @ LINEAR
-        return np.asarray((strip.products[1] @ sums[..., None])[..., 0])
+        return np.asarray((strip.projection[1] @ sums[..., None])[..., 0])
 
     mean = projected(ratio) @ LINEAR.T
     slope, stored = np.empty(mean.shape), np.empty(mean.shape)
@@ -195,8 +206,10 @@ def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[A
     return np.where(law.rigid, c, soft), np.where(law.rigid, 0.0, projected(stored) @ basis)
 
 
-def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, Array, Array]:
-    """Return the Cauchy stress in space as xx, yy, xy, the axial one, and psi less U."""
+def _stresses(
+    law: _ElementMaterials, deformed: tuple[Array, ...], c: Array
+) -> tuple[Array, Array, Array]:
+    """Return the Cauchy stress as xx, yy, xy, that along the axis, and psi less U."""
     hoop, inward, ratio = deformed
     left = np.stack(
         [
@@ -221,9 +234,13 @@ def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, 
     return stress, axial, psi
 
 
-def _relaxed(law: _Law, viscous: Viscous) -> Array:
-    """Return T_ss, T_zz, T_sz, what c gets, T_yy and the energy that relax, (elements, 9, 6)."""
-    x_s, x_z, y_s, y_z = viscous.deformation
+def _relaxing_at_points(law: _ElementMaterials, relaxing: RelaxingStress) -> Array:
+    """Return what relaxing stresses amount to at the Gauss points, (elements, 9, 6).
+
+    The relaxing parts of T_ss, T_zz and T_sz, what is added to c, that of T_yy along the axis, and
+    the energy.
+    """
+    x_s, x_z, y_s, y_z = relaxing.deformation
     volume, spread = x_s * y_z - x_z * y_s, (x_s - y_z) ** 2 + (x_z + y_s) ** 2
     total, apart = np.sqrt(spread + 4.0 * volume), np.sqrt(spread)
     principal = np.stack([0.5 * (total + apart), 0.5 * (total - apart), np.ones_like(total)])
@@ -231,25 +248,25 @@ def _relaxed(law: _Law, viscous: Viscous) -> Array:
     for energy, where in law.energies:
         third = energy.principal(principal[:, where])[2] - energy.rest
         axial[where] = law.shear[where] * third
-    held = viscous.stress
+    held = relaxing.stress
     along, across = 0.5 * (x_s**2 + y_s**2 - 1.0), 0.5 * (x_z**2 + y_z**2 - 1.0)
     work = held[..., 0] * along + held[..., 1] * across + held[..., 2] * (x_s * x_z + y_s * y_z)
-    if viscous.volume is not None:
-        work = work + held[..., 3] * viscous.volume[1]
-    pressed = np.broadcast_to(viscous.volume_law[0], volume.shape)
-    axial = viscous.memory.relaxing(axial[..., None])[..., 0]
+    if relaxing.volume is not None:
+        work = work + held[..., 3] * relaxing.volume[1]
+    pressed = np.broadcast_to(relaxing.volume_law[0], volume.shape)
+    axial = relaxing.memory.history_integral(axial[..., None])[..., 0]
     return np.stack([*np.moveaxis(held[..., :3], -1, 0), pressed, axial, 0.5 * work], axis=-1)
 
 
 def _projected(strip: Strip, values: Array, at: Array) -> Array:
-    """Return values at points of Gauss, made linear in each element, at places (points, 2)."""
-    weighted, inverse = strip.products
+    """Return values at Gauss points, projected on linear functions, at points (points, 2)."""
+    weighted, inverse = strip.projection
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
     return np.asarray(basis.T @ (inverse @ (weighted @ values)))
 
 
-def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
-    """Return F T F^T as xx, yy, xy."""
+def _push_forward(held: Array, hoop: Array, inward: Array) -> Array:
+    """Return F T F^T as xx, yy, xy, of the relaxing parts of T."""
     ss, zz, sz = (held[..., part] for part in range(3))
     out = np.empty((*ss.shape, 3))
     for place, (i, j) in enumerate(((0, 0), (1, 1), (0, 1))):
@@ -259,7 +276,7 @@ def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
 
 
 def _component(stress: Array, one: Array, other: Array) -> Array:
-    """Return one . s . other, s as xx, yy, xy."""
+    """Return one . s . other, with s given as xx, yy, xy."""
     mixed = one[..., 0] * other[..., 1] + one[..., 1] * other[..., 0]
     return np.asarray(
         stress[..., 0] * one[..., 0] * other[..., 0]

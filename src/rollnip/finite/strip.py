@@ -1,7 +1,8 @@
-"""Finite elements of a covering: nine nodes each, a rectangular mesh of arcs and depths.
+"""Mesh of a covering: elements of nine nodes, rectangular in arc and depth.
 
 Frame of a roller: x along the nip, y into the roller, both zero at the point of first touch. A
-material point is known by its undeformed arc s along the surface and its depth z.
+material point is identified by its undeformed arc s along the surface and its depth z. Elements
+are integrated at 3 x 3 Gauss points; their surface tractions at four.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ _ON_SURFACE = np.polynomial.legendre.leggauss(4)
 _ALONG, _DOWN = (grid.ravel() for grid in np.meshgrid(_GAUSS[0], _GAUSS[0], indexing="ij"))
 _AREA = np.multiply.outer(_GAUSS[1], _GAUSS[1]).ravel()
 LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
-"""Basis of volume and pressure in an element, at its nine points of Gauss, (9, 3)."""
-_FOLDS = 3.5  # of e in depth, from the surface to the nip width or the core
-_PER_FOLD = 1.14  # elements
+"""Basis of volume and pressure in an element, (9, 3): 1 and both coordinates, at Gauss points."""
+# Logarithm of the height of elements as deep as the nip is wide, over that at the surface.
+_LOG_HEIGHT_RATIO = 3.5
+_PER_FOLD = 1.14  # elements per unit of that logarithm
 
 
 def quadratics(at: Array) -> tuple[Array, Array]:
@@ -37,8 +39,8 @@ def quadratics(at: Array) -> tuple[Array, Array]:
 
 
 (_N_S, _D_S), (_N_Z, _D_Z) = quadratics(_ALONG), quadratics(_DOWN)
-# Derivatives of the shape functions on [-1, 1] along and over the depth, by point and node, and
-# integrals of them and of their products that are the same in every element.
+# Derivatives of the shape functions by both coordinates on [-1, 1], by Gauss point and node, and
+# products of them with weights and with each other, which are the same in every element.
 _BY = np.stack([_D_S[:, :, None] * _N_Z[:, None, :], _N_S[:, :, None] * _D_Z[:, None, :]])
 _BY = _BY.reshape(2, 9, 9)
 _WEIGHTED = (_AREA[:, None] * _BY).reshape(18, 9)
@@ -54,36 +56,41 @@ class Depths:
 
     Attributes
     ----------
-    roller : with elastic layers on a rigid core.
-    ends : (rows + 1,) depths of the ends of elements, from the surface [mm].
-    owner : (rows,) the layer of each.
+    roller : with layers on a rigid core.
+    ends : (elements + 1,) depths of the ends of elements, from the surface [mm].
+    row_layers : (elements,) the layer of each.
     """
 
     roller: Roller
     ends: Array
-    owner: Indices
+    row_layers: Indices
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Depths:
-        """Divide evenly in the logarithm of the depth, for a contact of about this size [mm]."""
-        little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_FOLDS)
+        """Divide into equal steps of log(depth + constant), for a contact of about this size [mm].
+
+        Ends of elements lie on the interfaces of layers.
+        """
+        little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_LOG_HEIGHT_RATIO)
         marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
-        ends, owner = [0.0], []
+        ends, layers = [0.0], []
         for layer, (top, bottom) in enumerate(pairwise(marks)):
             count = max(1, int(np.ceil(_PER_FOLD * (bottom - top))))
             ends += (little * np.expm1(np.linspace(top, bottom, count + 1)))[1:].tolist()
-            owner += [layer] * count
-        return cls(roller, np.array(ends), np.array(owner))
+            layers += [layer] * count
+        return cls(roller, np.array(ends), np.array(layers))
 
 
 @dataclass(frozen=True)
 class Strip:
     """Mesh of a part of a covering, bonded to the core and free at both ends.
 
+    In the shapes below ``elements`` counts all of the mesh, down one column after the other.
+
     Attributes
     ----------
     depths : division over the depth.
-    ends : (columns + 1,) arcs of the ends of elements [mm].
+    ends : (columns + 1,) arcs of the ends of columns [mm].
     """
 
     depths: Depths
@@ -96,8 +103,8 @@ class Strip:
 
     @property
     def rows(self) -> int:
-        """Nodes that may move in each column of nodes: all but the one on the core."""
-        return 2 * self.depths.owner.size
+        """Number of free nodes in each column of nodes: all but the one on the core."""
+        return 2 * self.depths.row_layers.size
 
     @property
     def size(self) -> int:
@@ -106,11 +113,12 @@ class Strip:
 
     @property
     def _kind(self) -> tuple[int, int, bool]:
-        """Columns, elements of each, and whether a matrix goes by rows, as many layers ask for.
+        """Columns, elements of each, and whether matrices are ordered by rows of nodes.
 
-        With memory it goes by columns, which are tied to those ahead (`near_slots`).
+        They are where that makes the band narrower, as with many layers. With memory they are
+        ordered by columns, as `near_slots` wants them.
         """
-        count = self.depths.owner.size
+        count = self.depths.row_layers.size
         by_rows = count > self.columns and not self.depths.roller.is_viscoelastic
         return self.columns, count, by_rows
 
@@ -121,7 +129,7 @@ class Strip:
 
     @property
     def order(self) -> Indices | None:
-        """Place in a matrix of each unknown; None: as they are."""
+        """Row of the matrix of each unknown; None: in order."""
         return numbering.order(*self._kind)
 
     @cached_property
@@ -133,7 +141,7 @@ class Strip:
 
     @cached_property
     def _grid(self) -> tuple[Array, Array, Array, Array]:
-        """Half length, half height, middle arc and middle depth of every element."""
+        """Half length, half height, arc and depth of the centre of every element, (elements,)."""
         z = self.depths.ends
         half = np.meshgrid(0.5 * np.diff(self.ends), 0.5 * np.diff(z), indexing="ij")
         middle = np.meshgrid(self.arcs[1::2], 0.5 * (z[1:] + z[:-1]), indexing="ij")
@@ -141,24 +149,24 @@ class Strip:
 
     @cached_property
     def points(self) -> tuple[Array, Array, Array]:
-        """Arcs of the points of Gauss, cosine and sine of their angles; each (elements, 9)."""
+        """Arcs of the Gauss points, cosine and sine of their angles; each (elements, 9)."""
         half, _, middle, _ = (values[:, None] for values in self._grid)
         arcs = middle + half * _ALONG
         angle = self.depths.roller.curvature * arcs
         return arcs, np.cos(angle), np.sin(angle)
 
     def by_column(self, values: Array) -> Array:
-        """Return values at points of Gauss, (elements, 9, ...), as (3 columns, rows, 3 ...).
+        """Return values at Gauss points, (elements, 9, ...), as (3 columns, element rows, 3 ...).
 
         The first axis goes along the surface, the last over the depth of an element.
         """
-        rows = self.depths.owner.size
+        rows = self.depths.row_layers.size
         grid = values.reshape(self.columns, rows, 3, -1)
         return grid.transpose(0, 2, 1, 3).reshape(3 * self.columns, rows, -1)
 
     @cached_property
     def _lengths(self) -> Array:
-        """Half length of the arc at the points of Gauss and half height, (2, elements, 9)."""
+        """Half length at the depth of each Gauss point, and half height, (2, elements, 9)."""
         half_s, half_z, _, z = (values[:, None] for values in self._grid)
         out = np.empty((2, half_s.size, 9))
         out[0] = half_s * (1.0 - self.depths.roller.curvature * (z + half_z * _DOWN))
@@ -167,17 +175,17 @@ class Strip:
 
     @cached_property
     def _rates(self) -> Array:
-        """Derivatives of places on [-1, 1] by arc and by depth, (2, elements, 9)."""
+        """Derivatives of the coordinates on [-1, 1] by arc and by depth, (2, elements, 9)."""
         return 1.0 / self._lengths
 
     @cached_property
     def volumes(self) -> Array:
-        """Volumes of the points of Gauss, (elements, 9)."""
+        """Volumes that the Gauss points stand for, weight times Jacobian, (elements, 9) [mm^2]."""
         return np.asarray(_AREA * self._lengths[0] * self._lengths[1])
 
     @cached_property
-    def shapes(self) -> Array:
-        """Derivatives of the shape functions by arc and by depth, (2, elements, 9, 9)."""
+    def shape_derivatives(self) -> Array:
+        """Derivatives of the shape functions by arc and depth, (2, elements, 9 points, 9 nodes)."""
         return np.asarray(_BY[:, None] * self._rates[..., None])
 
     @cached_property
@@ -187,84 +195,91 @@ class Strip:
         return np.stack([cos, -sin, sin, cos]).reshape(2, 2, *cos.shape)
 
     def deformation(self, displacement: Array) -> Array:
-        """Return F on the unit vectors along the arc and into the roller at the points of Gauss.
+        """Return the deformation gradient F at the Gauss points, (4, elements, 9).
 
-        (4, elements, 9): x by arc, x by depth, y by arc, y by depth.
+        On the unit vectors along the arc and into the roller: x by arc, x by depth, y by arc, y by
+        depth.
         """
         return self.gradient(displacement) + self._at_rest.reshape(4, -1, 9)
 
     def gradient(self, displacement: Array) -> Array:
-        """Return the same less that at rest."""
+        """Return the displacement gradient in the same form, F less that of the undeformed mesh."""
         made = self.local(displacement).reshape(-1, 9) @ _BY.reshape(18, 9).T
         by = made.reshape(-1, 2, 2, 9).transpose(1, 2, 0, 3)
         out = np.empty(by.shape)
         return np.multiply(by, self._rates, out=out).reshape(4, -1, 9)
 
     def local(self, displacement: Array) -> Array:
-        """Return the displacements of the nodes of every element, (elements, 18)."""
+        """Return the displacements of the nodes of every element, (elements, 18): x, then y."""
         return np.append(displacement, 0.0)[self.unknowns]
 
     def forces(self, stress: Array) -> Array:
-        """Return the forces of nominal stresses (4, elements, 9) on the nodes, (elements, 18)."""
-        return np.asarray(self._on_sides(stress) @ _WEIGHTED).reshape(-1, 18)
+        """Return the nodal forces of nominal stresses (4, elements, 9), (elements, 18)."""
+        return np.asarray(self._times_sides(stress) @ _WEIGHTED).reshape(-1, 18)
 
-    def in_basis(self, stress: Array) -> Array:
-        """Return the forces of nominal stresses times the basis `LINEAR`, (elements, 3, 18)."""
-        made = (self._on_sides(stress) @ _IN_BASIS).reshape(-1, 2, 3, 9)
+    def forces_by_basis(self, stress: Array) -> Array:
+        """Return the nodal forces of stresses times each function of `LINEAR`, (elements, 3, 18).
+
+        ``stress`` (4, elements, 9) is a nominal one.
+        """
+        made = (self._times_sides(stress) @ _IN_BASIS).reshape(-1, 2, 3, 9)
         return np.ascontiguousarray(made.transpose(0, 2, 1, 3)).reshape(-1, 3, 18)
 
-    def _on_sides(self, stress: Array) -> Array:
-        """Return stresses times the half lengths that they act on, (2 elements, 18)."""
+    def _times_sides(self, stress: Array) -> Array:
+        """Return stresses times half the length of the side that they act on, (2 elements, 18)."""
         out = np.empty((self.layer.size, 2, 2, 9))
         by_part = stress.reshape(2, 2, -1, 9)
         np.multiply(by_part, self._lengths[::-1], out=out.transpose(1, 2, 0, 3))
         return out.reshape(-1, 18)
 
-    def isotropic(self, modulus: Array) -> Array:
+    def gradient_stiffness(self, modulus: Array) -> Array:
         """Return int modulus grad N_a . grad N_b, (elements, 9, 9); modulus (elements, 9)."""
         weight = modulus * self._lengths[::-1] * self._rates
         return np.asarray(weight.transpose(1, 0, 2).reshape(-1, 18) @ _SQUARES).reshape(-1, 9, 9)
 
-    def turning(self, c: Array) -> Array:
+    def cofactor_stiffness(self, c: Array) -> Array:
         """Return int c (N_a,s N_b,z - N_a,z N_b,s), (elements, 9, 9); c (elements, 9).
 
-        Lengths cancel: it is the same for all shapes of an element.
+        The Jacobian cancels: the integral does not depend on the sizes of an element.
         """
         return np.asarray(c @ _CROSS).reshape(-1, 9, 9)
 
     @cached_property
-    def products(self) -> tuple[Array, Array]:
-        """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its products."""
+    def projection(self) -> tuple[Array, Array]:
+        """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its mass matrix.
+
+        (inverse @ weighted) projects values at Gauss points on linear functions.
+        """
         weighted = LINEAR.T * self.volumes[:, None, :]
-        rows, half = self.depths.owner.size, self._grid[0]
+        rows, half = self.depths.row_layers.size, self._grid[0]
         column = np.linalg.inv(weighted[:rows] @ LINEAR) * half[0]  # all columns are alike in shape
         return weighted, np.tile(column, (self.columns, 1, 1)) / half[:, None, None]
 
     @property
     def unknowns(self) -> Indices:
-        """Unknowns of every element, (elements, 18), x of all nodes, then y; -1 on the core."""
-        return numbering.unknowns(self.columns, self.depths.owner.size)
+        """Numbers of the unknowns of every element, (elements, 18): x, then y; -1 on the core."""
+        return numbering.unknowns(self.columns, self.depths.row_layers.size)
 
     @property
     def slots(self) -> Indices:
-        """Places of the entries of the element matrices in banded storage; beyond it if fixed."""
+        """Places in banded storage of the entries of the element matrices; behind it if fixed."""
         return numbering.slots(*self._kind)
 
     @property
     def lower_slots(self) -> tuple[Indices, Indices]:
         """Entries of the element matrices on and below the diagonal, and their places.
 
-        In banded storage of a symmetric matrix, columns one after the other.
+        In the banded storage of a symmetric matrix, for dpbtrf.
         """
         return numbering.lower_slots(*self._kind)
 
     @property
-    def stored(self) -> int:
-        """Number of entries of a matrix in banded storage."""
+    def storage_size(self) -> int:
+        """Number of entries in the banded storage of a matrix."""
         return (3 * self.band + 1) * self.size
 
     def place(self, row: Indices, column: Indices) -> Indices:
-        """Return places in banded storage, columns one after the other, of matrix entries."""
+        """Return the places in banded storage of the entries of some unknowns."""
         order = self.order
         if order is not None:
             row, column = order[row], order[column]
@@ -273,11 +288,11 @@ class Strip:
     @cached_property
     def layer(self) -> Indices:
         """The layer of every element."""
-        return np.tile(self.depths.owner, self.columns)
+        return np.tile(self.depths.row_layers, self.columns)
 
     @cached_property
     def surface(self) -> Surface:
-        """The elements of the outer surface."""
+        """Gauss points on the outer surface."""
         return Surface.of(self)
 
     def on_surface(self, displacement: Array) -> Array:
@@ -287,16 +302,16 @@ class Strip:
 
 @dataclass(frozen=True)
 class Surface:
-    """Points of Gauss on the outer surface, of every element four.
+    """Gauss points on the outer surface, four in every column.
 
     Attributes
     ----------
     arcs : (columns, 4) [mm].
-    weights : (columns, 4) lengths that tractions act on [mm]; 0 on the far side of the roller,
-        whose places x are those of the contact again.
+    weights : (columns, 4) lengths that the points stand for [mm]; 0 on the far side of the roller,
+        where the places x of the contact occur once more.
     values, slopes : (columns, 4, 3) shape functions and their derivatives by the arc.
-    unknowns : (columns, 3, 2) of the three nodes.
-    undeformed : (3, columns, 4) x, and the derivatives of x and y by the arc.
+    unknowns : (columns, 3, 2) numbers of x and y of the three nodes.
+    undeformed : (3, columns, 4) undeformed x, and the derivatives of x and y by the arc.
     """
 
     arcs: Array
@@ -308,7 +323,7 @@ class Surface:
 
     @classmethod
     def of(cls, strip: Strip) -> Surface:
-        """Return the points of a mesh."""
+        """Return the Gauss points of a mesh."""
         at, weight = _ON_SURFACE
         values, slopes = quadratics(at)
         half = 0.5 * np.diff(strip.ends)[:, None]
@@ -327,13 +342,13 @@ class Surface:
 
 
 def on_circle(arcs: Array, curvature: float) -> tuple[Array, Array]:
-    """Return x and y of points of an undeformed surface at some arcs [mm]."""
+    """Return x and y of the undeformed surface at some arcs [mm]."""
     x = arcs * np.sinc(curvature * arcs / np.pi)
     y = 0.5 * curvature * (arcs * np.sinc(0.5 * curvature * arcs / np.pi)) ** 2
     return x, y
 
 
 def below_radius(x: Array, y: Array, curvature: float) -> Array:
-    """Return the radius of a roller less the distance of points (x, y) from its axle [mm]."""
+    """Return the radius of a roller less the distance of points (x, y) from its axis [mm]."""
     twice = 2.0 * y - curvature * (x * x + y * y)
     return np.asarray(twice / (1.0 + np.sqrt(1.0 - curvature * twice)))

@@ -27,7 +27,7 @@ from rollnip.finite import (
     Tractions,
     deformed_surface,
     element_fields,
-    nodal,
+    linear_between_nodes,
     present_place,
 )
 from rollnip.interior.tractions import Array, SurfaceTractions
@@ -124,7 +124,7 @@ class FiniteFields:
                 at = places[row, line]
                 inside = (x >= at[0]) & (x <= at[-1])
                 for part in range(len(PARTS)):
-                    found = Spline.through(at, values[part, row, line])(x)
+                    found = Spline.natural_cubic(at, values[part, row, line])(x)
                     out[part, line] += sign * np.where(inside, found, 0.0)
         return out
 
@@ -165,9 +165,9 @@ def _solved(
     near = _NEAR * half_width
     depths = _depths(roller, half_width, split)
     places = _columns(roller, loaded, columns)
-    acting = nodal(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
+    acting = linear_between_nodes(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
     flat = Body(Strip(depths, places), None if speeds is None else speeds[0])
-    small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), still=_STILL)
+    small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), tolerance=_STILL)
     linear = MeshState(small.displacement / _SMALL, small.pressure / _SMALL)
     passing = flat if speeds is None else Body(flat.strip, speeds[1])
     body, state = _equilibrium(passing, linear, acting, near)
@@ -248,7 +248,7 @@ def _depths(roller: Roller, half_width: float, split: int) -> Depths:
     depths = Depths.of(roller, half_width)
     parts = np.linspace(0.0, 1.0, split + 1)[1:]
     inner = depths.ends[:-1, None] + np.diff(depths.ends)[:, None] * parts
-    return Depths(roller, np.append(0.0, inner.ravel()), np.repeat(depths.owner, split))
+    return Depths(roller, np.append(0.0, inner.ravel()), np.repeat(depths.row_layers, split))
 
 
 def _columns(roller: Roller, loaded: Array, columns: int) -> Array:

@@ -14,11 +14,11 @@
    estimated errors give the errors that the figures claim (`claimed_errors`).
 
 At finite strain a correction of all orders is held fixed through steps 2 to 4, then evaluated again
-from their solution, until the two agree (`beyond`, `held`).
+from their solution, until the two agree (`all_orders`, `contact_stages`, `corrections`).
 """
 
+from rollnip.rolling.all_orders import refine_all_orders, with_second_order
 from rollnip.rolling.assemble import stretch_excess, surface_depths
-from rollnip.rolling.beyond import refine_all_orders, with_second_order
 from rollnip.rolling.check import (
     PairFields,
     fields_at,

@@ -1,9 +1,9 @@
 """Finite strain of all orders with a sheet: the contact and both corrections, by iteration.
 
-As in a bare nip (`rollnip.rolling.beyond`), the displacements of a surface are the linear ones plus
-a correction that is held while a contact is solved. With a sheet each roller has tractions of its
-own: pressure and the shear of its interface. The correction of each follows from these alone, so
-that iterations are those of a bare nip, and the sheet is no part of them.
+As in a bare nip (`rollnip.rolling.all_orders`), the displacements of a surface are the linear ones
+plus a correction that is held while a contact is solved. With a sheet each roller has tractions of
+its own: pressure and the shear of its interface. The correction of each follows from these alone,
+so that iterations are those of a bare nip, and the sheet is no part of them.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ import numpy as np
 from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.beyond import (
+from rollnip.rolling.all_orders import (
+    CUT_FACTORS,
     MOST_CORRECTIONS,
-    SHARES_KEPT,
-    SMALL,
-    UNDER_SKINS,
-    Least,
-    Past,
+    SKIN_TOLERANCE,
+    SMALL_CHANGE,
+    AndersonMixer,
+    BestSolution,
     even_places,
     places_by_the_edges,
 )
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
+from rollnip.rolling.contact_stages import NEARLY_CONVERGED, coarse_model
+from rollnip.rolling.corrections import PairCorrection, RollerTractions
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.elements import Acting, AllOrders
-from rollnip.rolling.held import NEARLY, coarsely
 from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.kind import CLOSELY, ROUGHLY, S, SheetKind
 from rollnip.sheet.powers import smooth_works
@@ -59,15 +59,17 @@ def solve_by_iteration(
     is no equilibrium, or zones or corrections do not settle.
     """
     if skin_thickness(kind.nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
+        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
     try:
-        attempt = _begun(kind, coarsely(model), kernels, half_width)
+        attempt = _begun(kind, coarse_model(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
-    for share in SHARES_KEPT:
-        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(attempt), share)
+    for cut_factor in CUT_FACTORS:
+        correction = PairCorrection.of(
+            kind.nip, kernels, half_width, _largest_strain(attempt), cut_factor
+        )
         try:
-            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), orders)
+            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), correction)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -110,7 +112,7 @@ class _Contact(Generic[S]):
         if refine:
             self._refine(kernels, found)
             return
-        model = coarsely(self.model) if self.refined is None else self.model
+        model = coarse_model(self.model) if self.refined is None else self.model
         size = _COARSE if self.refined is None else self.refined.count
         half_width = 0.5 * found.zones.width
         count = round(elements_to_begin_with(self.kind, half_width, size))
@@ -132,36 +134,38 @@ class _Contact(Generic[S]):
 
 
 def _iterate_until_settled(
-    kernels: PairKernels, contact: _Contact[S], orders: AllOrders
+    kernels: PairKernels, contact: _Contact[S], correction: PairCorrection
 ) -> tuple[PairKernels, Refined[S]] | None:
     """Iterate, see `solve_by_iteration`."""
     kind, tolerance, change = contact.kind, contact.model.tolerance, inf
-    past = Past(even_places(_edges(contact.attempt)))
-    least = Least[tuple[PairKernels, Refined[S], S]]()
+    mixer = AndersonMixer(even_places(_edges(contact.attempt)))
+    best = BestSolution[tuple[PairKernels, Refined[S], S]]()
     for _ in range(MOST_CORRECTIONS):
         attempt, refined = contact.attempt, contact.refined
         creepage = sum(attempt.state.creepages)
-        made, is_whole = orders.under(_sides(attempt), creepage, roughly=change == inf)
+        made, is_full_load = correction.of_tractions(
+            _sides(attempt), creepage, roughly=change == inf
+        )
         smooth = replace(kernels, held=made)
         own = kind.holding(attempt, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
-        if refined is not None and change < SMALL and is_whole:
+        if refined is not None and change < SMALL_CHANGE and is_full_load:
             missed = kind.missed(attempt, own)
             found = on_last_mesh(kind, refined, own, smooth, missed)
-            if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
+            if best.may_stop((smooth, found, own), found.residual / tolerance, to_come):
                 break
-        kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
+        kernels = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
-        begins = refined is None and is_whole and near <= NEARLY
+        begins = refined is None and is_full_load and near <= NEARLY_CONVERGED
         if begins:
-            past = Past(places_by_the_edges(_edges(attempt)))
+            mixer = AndersonMixer(places_by_the_edges(_edges(attempt)))
         contact.solve(kernels, refine=begins)
         if not contact.attempt.settled and contact.refined is not None:
             break
-    if least.found is None:
+    if best.found is None:
         return None
-    kernels, found, own = least.found
+    kernels, found, own = best.found
     assert kernels.held is not None
     uncut = kind.holding(own, replace(kernels, held=kernels.held.uncut))
     return kernels, _with_cut(found, kind.missed(own, uncut))
@@ -174,9 +178,9 @@ def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
     return replace(refined, cut=cut, cut_losses=losses)
 
 
-def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
+def _sides(attempt: AnyAttempt) -> tuple[RollerTractions, RollerTractions]:
     """Return the tractions of the upper and of the lower roller."""
-    out: list[Acting] = []
+    out: list[RollerTractions] = []
     for number, (mesh, sign) in enumerate(zip(attempt.problem.meshes, (1.0, -1.0), strict=True)):
         one = attempt.state.side(number)
         out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))

@@ -1,4 +1,4 @@
-"""Leaving out of functions what is too short for the contact."""
+"""Low-pass filter of the correction: it removes waves that are too short for the contact."""
 
 from __future__ import annotations
 
@@ -12,27 +12,30 @@ from rollnip.finite._spline import Spline
 
 Array = NDArray[np.float64]
 
-_PER_CUT = 1.0  # points of the grid per radian of the wave of which half is left
+_PER_CUT = 1.0  # grid points per radian of the wave at the cut-off, whose amplitude is halved
 
 
 @dataclass(frozen=True)
-class Smoothing:
-    """Waves of number k are left to 1 / (1 + (k/cut)^4).
+class LowPass:
+    """A low-pass filter that multiplies waves of the wave number k by 1 / (1 + (k/cut)^4).
+
+    It solves (1 + w D^T D) smooth = given, with the second differences D at all inner points of an
+    even grid of spacing h and w = 1/(cut h)^4.
 
     Attributes
     ----------
-    x : (n,) even points on which functions are smoothed [mm].
-    factors : of 1 + weight times the square of second differences, without any beyond the ends.
+    x : (n,) grid on which functions are smoothed [mm].
+    factors : (3, n) Cholesky factors of 1 + w D^T D, upper, in banded storage.
     """
 
     x: Array
     factors: Array
 
     @classmethod
-    def of(cls, middle: float, ends: float, cut: float) -> Smoothing:
-        """Return the smoothing of functions between middle - ends and middle + ends.
+    def of(cls, middle: float, ends: float, cut: float) -> LowPass:
+        """Return the filter for functions between middle - ends and middle + ends [mm].
 
-        ``cut`` is the wave number of which half is left [1/mm].
+        ``cut`` is the wave number whose amplitude is halved [1/mm].
         """
         count = int(np.ceil(2.0 * ends * cut * _PER_CUT)) + 1
         x = np.linspace(middle - ends, middle + ends, count)
@@ -49,8 +52,8 @@ class Smoothing:
         return cls(x, factors)
 
     def __call__(self, functions: tuple[Spline, ...]) -> tuple[Spline, ...]:
-        """Return functions of the place without their short waves, on the points ``x``."""
+        """Return the functions without their short waves, as natural cubic splines on ``x``."""
         values = np.stack([f(self.x) for f in functions], axis=1)
         made, info = lapack.dpbtrs(self.factors, values)
         assert info == 0
-        return tuple(Spline.through(self.x, column) for column in made.T)
+        return tuple(Spline.natural_cubic(self.x, column) for column in made.T)

@@ -1,7 +1,7 @@
-"""Tractions on the surface of a mesh, as forces on its nodes.
+"""Follower loads: tractions on the deformed surface of a mesh, as nodal forces.
 
-The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y'), p and q the pressure
-and shear at the present place x(s).
+The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y'), with the pressure p
+and the shear q at the present place x(s).
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ import numpy as np
 from rollnip.finite.strip import Array, Indices, Strip
 
 Tractions = Callable[[Array], Array]
-"""Pressure, shear and their derivatives, (4, ...), at present places [MPa], [MPa/mm]."""
+"""Pressure and shear [MPa] and their derivatives [MPa/mm] at some places, (4, ...)."""
 
 
 @dataclass(frozen=True)
-class Pull:
-    """The surface of a state of a mesh under its tractions, at the points of Gauss there.
+class FollowerLoad:
+    """Tractions on the surface of a mesh in some state, at the Gauss points of the surface.
 
     Attributes
     ----------
     strip : the mesh.
     along, up : (columns, 4) derivatives of the present x and y by the arc.
-    tractions : (4, columns, 4) p, q and their derivatives by the place, each times the length of
-        its point.
+    tractions : (4, columns, 4) p, q and their derivatives by the place, each times the weight of
+        the Gauss point [mm].
     """
 
     strip: Strip
@@ -35,8 +35,8 @@ class Pull:
     tractions: Array
 
     @classmethod
-    def of(cls, strip: Strip, displacement: Array, tractions: Tractions) -> Pull:
-        """Return the surface at some displacements (unknowns,), tractions at its present places."""
+    def of(cls, strip: Strip, displacement: Array, tractions: Tractions) -> FollowerLoad:
+        """Return the loads at displacements (unknowns,), with tractions given at present places."""
         surface = strip.surface
         local = displacement[surface.unknowns]
         x, along, up = surface.undeformed
@@ -46,15 +46,15 @@ class Pull:
         return cls(strip, along + rates[..., 0], up + rates[..., 1], acting)
 
     @classmethod
-    def undeformed(cls, strip: Strip, tractions: Tractions) -> Pull:
-        """Return the surface of linear theory, tractions at its undeformed arcs."""
+    def undeformed(cls, strip: Strip, tractions: Tractions) -> FollowerLoad:
+        """Return the loads of linear theory, with tractions given at undeformed arcs."""
         surface = strip.surface
         _, cos, sin = surface.undeformed
         return cls(strip, cos, sin, surface.weights * tractions(surface.arcs))
 
     @property
-    def loads(self) -> Array:
-        """Forces on the nodes, (unknowns,)."""
+    def nodal_forces(self) -> Array:
+        """External forces at the nodes, (unknowns,) [N/mm]."""
         along, up, (p, q, _, _) = self.along, self.up, self.tractions
         surface = self.strip.surface
         force = np.stack([q * along - p * up, p * along + q * up], axis=-1)
@@ -62,8 +62,8 @@ class Pull:
         return summed(surface.unknowns.ravel(), made.ravel(), self.strip.size)
 
     @property
-    def turning(self) -> tuple[Indices, Array]:
-        """Derivative of the forces by the displacements: places in banded storage, and entries."""
+    def stiffness(self) -> tuple[Indices, Array]:
+        """Load stiffness, the derivative of the forces: places in banded storage, and entries."""
         surface = self.strip.surface
         n, d = surface.values, surface.slopes
         along, up, (p, q, p_slope, q_slope) = self.along, self.up, self.tractions
@@ -78,10 +78,10 @@ class Pull:
 
 
 def summed(places: Indices, values: Array, count: int) -> Array:
-    """Return sums of values by place, (count,)."""
+    """Return the sums of the values with the same place, (count,)."""
     return np.asarray(np.bincount(places, values, minlength=count), dtype=float)
 
 
 def _between(shape: Array, values: Array, other: Array) -> Array:
-    """Return the sums of values at points times products of shape functions, (columns, 3, 3)."""
+    """Return the sums over points of shape_a values other_b, (columns, 3, 3)."""
     return np.asarray((shape * values[..., None]).transpose(0, 2, 1) @ other)

@@ -1,4 +1,4 @@
-"""A solution between given ends of zones, as searches for zones keep it."""
+"""The iterate of a search for zones: a solution for given zones, and the protocols it relies on."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Interfaces(Protocol):
-    """A problem on the meshes of both interfaces, the upper one first."""
+    """A discrete problem with one mesh per interface, the upper one first."""
 
     @property
     def nip(self) -> Nip:
@@ -28,24 +28,24 @@ class Interfaces(Protocol):
 
     @property
     def meshes(self) -> tuple[Mesh, Mesh]:
-        """The mesh of either interface."""
+        """The meshes of both interfaces."""
         ...
 
     @property
     def frictions(self) -> tuple[float, float]:
-        """Coefficients of either interface."""
+        """The friction coefficients of both interfaces."""
         ...
 
     def creeps(self, state: Any, lagged: Any) -> tuple[Array, Array]:
-        """Return the creep of either interface over each interval, each (n,) [mm]."""
+        """Return the creep of both interfaces over each interval, each (n,) [mm]."""
         ...
 
     def sheared(self, state: Any, side: int) -> Array:
-        """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+        """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         ...
 
     def displacements(self, state: Any, side: int, /) -> Displacements:
-        """Return displacements at nodes[1:] of one interface, those of its roller at least."""
+        """Return displacements at nodes[1:] of one interface, at least those of its own roller."""
         ...
 
 
@@ -63,21 +63,21 @@ class Tractions(Protocol):
         ...
 
     def side(self, number: int) -> ContactState:
-        """Return one interface as if it were all of the contact."""
+        """Return one interface as a contact state of its own."""
         ...
 
 
 class Terms(Protocol):
-    """Terms that follow the solution."""
+    """Terms of the problem that depend on its solution, lagged by one iteration."""
 
     @property
     def traction(self) -> float | None:
-        """T_l that is asked for [N/mm]; None where none is."""
+        """Prescribed T_l [N/mm]; None where none is prescribed."""
         ...
 
     @property
     def lean(self) -> float:
-        """Line load that the shears take from the pressure [N/mm]."""
+        """Part of the line load that is carried by the shears instead of the pressure [N/mm]."""
         ...
 
 
@@ -89,16 +89,16 @@ TermsT = TypeVar("TermsT", bound=Terms, covariant=True)
 
 @dataclass(frozen=True)
 class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
-    """A solution between the ends of some zones, and how well these are placed.
+    """A solution for given zones of stick and slip, and how well the ends of these are placed.
 
     Attributes
     ----------
-    zones : where it puts the zones.
+    zones : with the ends where this solution puts them.
     problem, state, lagged : the solved problem.
-    change : last change of the lagged terms, relative.
-    misplacement : how far ends were off, over the width.
-    steps : linear systems solved so far.
-    settled : whether zones and terms have settled.
+    change : last relative change of the lagged terms.
+    misplacement : error of the zone ends over the width.
+    steps : number of linear systems solved so far.
+    settled : whether zones and lagged terms have converged.
     """
 
     zones: ZonesT
@@ -112,14 +112,14 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
 
     @property
     def wanted_traction(self) -> float | None:
-        """T_l that is asked for [N/mm]; None where none is."""
+        """Prescribed T_l [N/mm]; None where none is prescribed."""
         return self.lagged.traction
 
     @cached_property
     def creeps(self) -> tuple[Array, Array]:
-        """Return the creep of either interface over each interval, each (n,) [mm]."""
+        """Return the creep of both interfaces over each interval, each (n,) [mm]."""
         return self.problem.creeps(self.state, self.lagged)
 
 
 AnyAttempt = Attempt[SideZones, Interfaces, Tractions, Terms]
-"""A solution of a sheet of any kind."""
+"""The iterate of a membrane or of a plate."""

@@ -1,4 +1,4 @@
-"""Needed to solve a sheet whether it resists bending or not: first width, grip, verdict."""
+"""Steps common to membranes and plates: first width, checks of grip, verdict and reservations."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ from rollnip.sheet.refine import Refined
 from rollnip.sheet.system import frictions_of
 from rollnip.verdict import missed, verdict, violated
 
-_CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure
+_CLEARLY = 1.2  # over the limit of friction; the torque also balances the pressure's moment
 SLACK = 1e-6
-"""Of the load: tension below zero that is more than rounding."""
+"""Compressive force in the sheet that counts as rounding, over the load."""
 CURVED_TENSION_RATIO = 0.05
-"""Thickness of a covering over the radius up to which "curved" has the tension to 7 % or better."""
+"""Covering thickness over radius up to which geometry "curved" gives the tension within 7 %."""
 
 
 def half_width_with_sheet(nip: Nip, half_width: float) -> float:
-    """Return a first half-width [mm] from that of the rollers alone, of a sheet that is squeezed.
+    """Return a first guess of the half-width that includes the squeeze of the sheet [mm].
 
-    Between rigid rollers a sheet of springs would take (3 F c/(2 kappa))^(1/3), c its squeeze and
-    kappa the curvature of the gap; both widths together as if their cubes, the loads, added up.
+    ``half_width`` is that of the rollers alone. Between rigid rollers a sheet that acts as a layer
+    of springs has the half-width (3 F c/(2 kappa))^(1/3), with its compliance c and the curvature
+    kappa of the gap. Both are combined as if their cubes, that is their loads, added up.
     """
     assert nip.sheet is not None
     if not isinstance(nip.normal, LineLoad):
@@ -40,9 +41,9 @@ def half_width_with_sheet(nip: Nip, half_width: float) -> float:
 
 
 def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
-    """Raise where a torque asks for more than so many times what friction carries on either side.
+    """Raise where the prescribed torque needs more than ``share`` times the available friction.
 
-    About, for a torque also turns against the pressure.
+    The limit is approximate, because the torque also balances the moment of the pressure.
     """
     if not (isinstance(nip.tangential, Torque) and isinstance(nip.normal, LineLoad)):
         return
@@ -62,7 +63,7 @@ def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
 
 
 def require_grip(nip: Nip, refined: Refined[AnyAttempt]) -> None:
-    """Raise where an interface is asked to carry more than friction can."""
+    """Raise where the prescribed traction or torque exceeds the friction of either interface."""
     sheet, load = nip.sheet, refined.figures.load
     assert sheet is not None
     wanted = refined.attempt.wanted_traction
@@ -79,11 +80,11 @@ def require_grip(nip: Nip, refined: Refined[AnyAttempt]) -> None:
 
 
 def may_slide_at_any_speed(nip: Nip) -> bool:
-    """Return whether geared rollers can slide on both sides all over, whatever the sheet's speed.
+    """Return whether geared rollers may slide on both sides at any speed of the sheet.
 
-    Between a roller that is faster and one that is slower friction pulls both faces of the sheet by
-    mu_u F one way and mu_l F the other. Where the tensions make up for just the difference, no
-    condition is left that its speed follows from.
+    Where one roller is faster than the sheet and the other slower, friction pulls the two faces by
+    mu_u F and mu_l F in opposite directions. If the tensions balance just this difference, no
+    condition remains that determines the speed of the sheet.
     """
     if not (isinstance(nip.tangential, Creepage) and nip.sheet is not None):
         return False
@@ -107,7 +108,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 def sheet_verdict(
     nip: Nip, model: Model, refined: Refined[AnyAttempt], final: Round
 ) -> tuple[bool, str]:
-    """Return whether the solution is valid, and what to do; if it is, the words up to it."""
+    """Return whether the solution is valid, and its status: a remedy, or its beginning if valid."""
     if not refined.attempt.settled:
         if not isfinite(refined.residual):
             return False, (
@@ -139,19 +140,19 @@ def sheet_verdict(
 
 
 def creepage_errors(nip: Nip, refined: Refined[AnyAttempt]) -> tuple[float, float]:
-    """Return the estimated errors of both creepages against the sheet, relative."""
+    """Return the estimated relative errors of the creepages of both rollers against the sheet."""
     upper, lower = (refined.errors.values[5:7] / scales(nip, refined.figures)[5:7]).tolist()
     return upper, lower
 
 
 def solved_instead(left: Sequence[Geometry], geometry: Geometry) -> tuple[Reservation, ...]:
-    """Return reservations that say which geometries had no solution, and which is solved."""
+    """Return reservations that name geometries without a solution and the one solved instead."""
     causes = [(one, f"its zones or its {BEYOND[one]} did not settle") for one in left]
     return instead_of(causes, geometry)
 
 
 def pushed(figures: SheetFigures) -> tuple[Reservation, ...]:
-    """Return a reservation where the sheet is pushed."""
+    """Return a reservation where the sheet is under compression in the nip."""
     if not figures.tension_min < -SLACK * figures.load:
         return ()
     return (
@@ -165,7 +166,7 @@ def pushed(figures: SheetFigures) -> tuple[Reservation, ...]:
 
 
 def tension_of_curved(nip: Nip, model: Model) -> tuple[Reservation, ...]:
-    """Return a reservation on the tension in "curved" where a covering is thick."""
+    """Return a reservation on the tension in geometry "curved" where a covering is thick."""
     rollers = nip.upper, nip.lower
     ratio = max(one.coating_thickness / one.radius for one in rollers)
     if model.geometry != "curved" or ratio <= CURVED_TENSION_RATIO:
@@ -184,7 +185,7 @@ def tension_of_curved(nip: Nip, model: Model) -> tuple[Reservation, ...]:
 
 
 def not_prescribed(nip: Nip) -> tuple[str, ...]:
-    """Return which of approach, creepage, nip width and highest pressure are not given."""
+    """Return those of approach, creepage, nip width and peak pressure that are not prescribed."""
     given = {"approach": not isinstance(nip.normal, LineLoad)}
     given["creepage"] = isinstance(nip.tangential, Creepage)
     names = ("approach", "creepage", "nip_width", "peak_pressure")

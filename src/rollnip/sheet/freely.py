@@ -1,8 +1,8 @@
-"""What a sheet that bends freely leaves out: stiffness, and tension times curvature.
+"""Errors of a membrane's figures due to what it neglects: stiffness, and tension times curvature.
 
-The pressures on both faces of a sheet differ by D y'''' - N y'' and the couples of the shears, y
-the height of its path (`rollnip.sheet.plate.bending`). One that bends freely has one pressure. The
-errors of its figures say what that changes, unless it is asked to.
+The pressures on both faces of a sheet differ by D y'''' - N y'' and by the couples of the shears,
+with the height y of its path (`rollnip.sheet.plate.bending`). A membrane has one pressure. The
+errors of its figures include the effect of that, unless bending was explicitly switched off.
 """
 
 from __future__ import annotations
@@ -26,17 +26,18 @@ _BY_LENGTH = np.array(
         *(0.9, 0.9, 0.2, 0.2, 0.5, 0.5, 0.02, 0.5, 4.0),
     ]
 )
-"""Change of each figure of `SheetFigures` by stiffness and tension, relative, over the share of the
-spreading length in the nip width: what nips at a share of 0.05 need, each solved both ways
-(decisions 36 and 42)."""
-_OF_GEARED = 1.2  # the same of tractions at a given creepage, over what friction carries
-_WIDTH = 3  # place of the nip width
-_PEAK, _PEAK_ON_RIGID = 4, 6.5  # place and change of the highest pressure, which has edges there
+"""Relative change of each figure of `SheetFigures` due to stiffness and tension, over the ratio of
+the spreading length to the nip width. The values cover nips with a ratio of 0.05, each solved as
+membrane and as plate (decisions 36 and 42).
+"""
+_OF_GEARED = 1.2  # the same for tractions at a given creepage, over the limit of friction
+_WIDTH = 3  # index of the nip width
+_PEAK, _PEAK_ON_RIGID = 4, 6.5  # index of the peak pressure; its change where edges have peaks
 _PULLS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
 
 
 def left_by_bending_freely(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
-    """Return the change of each figure by what bending freely leaves out, (20,).
+    """Return the error of each figure due to the neglected bending, (20,).
 
     Parameters
     ----------
@@ -52,28 +53,29 @@ def left_by_bending_freely(nip: Nip, figures: SheetFigures, wrapped: float) -> A
     share = spreading_length(nip) / figures.nip_width
     out = share * changes * scales(nip, figures)
     out[_WIDTH] += wrapped
-    if isinstance(nip.tangential, Creepage):  # what would change free creepages is pulled
+    if isinstance(nip.tangential, Creepage):  # creepages are given, so tractions change
         friction = min(nip.friction_on("upper"), nip.friction_on("lower"))
         out[_PULLS] += _OF_GEARED * share * friction * figures.load
     return np.asarray(out)
 
 
 def wrapped_length(nip: Nip, surfaces: DeformedSurfaces, edges: tuple[float, float]) -> float:
-    """Return over which length a sheet under tension lies on one roller beyond the nip [mm].
+    """Return the length over which a sheet under tension wraps one roller beyond the nip [mm].
 
-    Far outside it runs along x. As it leaves the nip it turns there over the length sqrt(D/N);
-    where a surface is in its way, it follows that until it turns along x, too. Its pressure on it
-    is tension times curvature, however low, which a sheet that bends freely does not have.
+    Far outside the nip the sheet runs along x. As it leaves the nip it turns into that direction
+    over the length sqrt(D/N). Where the surface of a roller is in its way, it follows the surface
+    until that runs along x too. The pressure there is tension times curvature: low, but neglected
+    by a membrane.
 
     Parameters
     ----------
     nip : with a sheet.
-    surfaces : in and outside the nip, between which the sheet bends freely.
+    surfaces : of both rollers in and outside the nip, from the membrane solution.
     edges : trailing and leading edge of the nip [mm].
 
     Returns
     -------
-    The longer one of the lengths on both rollers, as far as the surfaces are given at most.
+    The longer of the lengths on both rollers, at most as far as the surfaces are given.
     """
     sheet, lengths = nip.sheet, [0.0, 0.0]
     assert sheet is not None
@@ -86,7 +88,7 @@ def wrapped_length(nip: Nip, surfaces: DeformedSurfaces, edges: tuple[float, flo
         beyond = np.flatnonzero(outward * (x - edge) >= 0.0)[:: int(outward)]
         away = np.abs(x[beyond] - x[beyond[0]])
         for side, sign in enumerate((1.0, -1.0)):
-            clear = sign * heights[side][beyond]  # of the surface, which rises away from the sheet
+            clear = sign * heights[side][beyond]  # surface height, away from the sheet
             slope = (clear[1] - clear[0]) / away[1]
             path = clear[0] - slope * turning * np.expm1(-away / turning)
             if slope < 0.0 and (clear < path)[2:].any():

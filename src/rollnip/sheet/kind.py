@@ -1,4 +1,4 @@
-"""What the loop of sizes and the iterations at finite strain ask of a kind of sheet."""
+"""Interface that a formulation of the sheet, membrane or plate, offers to the mesh refinement."""
 
 from __future__ import annotations
 
@@ -14,29 +14,33 @@ from rollnip.sheet.powers import Pulls
 S = TypeVar("S", bound=AnyAttempt)
 
 FIRST_SIZE = 24
-"""Elements of the first size of mesh, at least."""
+"""Least number of elements of the first mesh size."""
 ROUGHLY, CLOSELY = 0.5, 0.03
-"""Of the tolerance times the width: allowed error of an end on a first size, and on others."""
+"""Allowed error of a zone end over tolerance times width, on the first mesh size and on others."""
 
 
 class SearchOfZones(Protocol[S]):
-    """A search for the zones of a nip with a sheet, for one model."""
+    """A search for the zones of stick and slip in a nip with a sheet, for one model."""
 
     def begun(self, half_width: float, count: int) -> S:
-        """Return a solution in linear geometry whose zones are about right, from no other one."""
+        """Return a first solution, in linear geometry, whose zones are approximately right."""
         ...
 
     def placed(self, zones: Any, count: int, before: S, closely: float) -> S:
-        """Return the solution on meshes of some size with nodes at the ends of its zones.
+        """Return the converged solution on meshes of one size with nodes at its zone ends.
 
-        ``before``: a solution with about these zones; ``closely``: allowed error of an end, of the
-        tolerance times the width.
+        Parameters
+        ----------
+        zones : to start from.
+        count : approximate number of elements.
+        before : a solution with approximately these zones.
+        closely : allowed error of a zone end, over the tolerance times the width.
         """
         ...
 
 
 class SheetKind(Protocol[S]):
-    """A nip with a sheet of some kind."""
+    """A nip with a sheet in one formulation, as a membrane or as a plate."""
 
     @property
     def nip(self) -> Nip:
@@ -49,32 +53,33 @@ class SheetKind(Protocol[S]):
 
     @property
     def bending_length(self) -> float:
-        """Length over which the sheet bends [mm]; inf where it bends freely."""
+        """Length over which bending stiffness acts [mm]; inf for a membrane."""
         ...
 
     def peaks_allowed(self, model: Model) -> tuple[float, ...]:
-        """Return the relative error that is allowed of the highest pressure on each side."""
+        """Return the allowed relative error of the peak pressure on each side."""
         ...
 
     def figures(self, attempt: S, geometry: Geometry) -> tuple[SheetFigures, ...]:
         """Return the figures, with width and pressure of the upper interface.
 
-        Where the lower one has a width and a pressure of its own, figures with those follow.
+        Where the lower interface has a width and a pressure of its own, figures with those follow.
         """
         ...
 
     def pulls(self, attempt: S, geometry: Geometry) -> Pulls:
-        """Return int q lambda ds of either roller [N/mm]."""
+        """Return int q lambda ds of both rollers [N/mm]."""
         ...
 
     def overlap(self, attempt: S, kernels: PairKernels, geometry: Geometry) -> float:
-        """Return how far surfaces and sheet overlap outside the contact, and tension, relative."""
+        """Return the relative overlap outside the contact, or the relative tensile pressure in it.
+        """
         ...
 
     def holding(self, attempt: S, kernels: PairKernels) -> S:
-        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         ...
 
     def missed(self, attempt: S, other: S) -> float:
-        """Return how badly a solution violates its conditions with the terms of the other one."""
+        """Return the residual of a solution with the lagged terms of ``other``."""
         ...

@@ -1,4 +1,4 @@
-"""Lengths at the ends of zones that a mesh must resolve, which come with a sheet."""
+"""Boundary-layer lengths at zone ends that the mesh must resolve because of the sheet."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from rollnip.rollers import Roller
 def sheet_layer(nip: Nip) -> float:
     """Return the length over which the sheet takes over a change of the shear [mm].
 
-    Over shorter lengths the surface of a roller yields less than the sheet is stretched by the
-    shears on it, over longer ones more: 1/(a E), a the strain of the sheet per tension and E the
-    glassy modulus of the surface. Beside a stiffer roller, a rigid one too, the shear through the
-    sheet's own thickness counts: sqrt(h/(3 G a)), about h.
+    Over shorter lengths the surface of a roller deforms less than the sheet stretches under the
+    same shear, over longer ones more. The length is 1/(a E), with the strain a of the sheet per
+    tension and the glassy modulus E of the surface. Beside a stiffer or rigid roller the shear
+    through the sheet's own thickness matters, which gives sqrt(h/(3 G a)), about h.
     """
     sheet = nip.sheet
     assert sheet is not None
@@ -29,11 +29,12 @@ def sheet_layer(nip: Nip) -> float:
 
 
 def squeeze_layer(nip: Nip) -> float:
-    """Return the length over which the sheet's thickness takes part in a change of the pressure.
+    """Return the length over which the sheet's thickness responds to a change of the pressure [mm].
 
-    That is its thickness h where the surfaces are stiff, for beyond h its compliance is that of
-    springs and below that of half-spaces. On surfaces much softer than the sheet it changes little
-    there, and over lengths longer by the ratio of the two compliances over h.
+    With stiff surfaces it is the thickness h: over longer distances the sheet is as compliant as a
+    layer of springs, over shorter ones as two half-spaces. With surfaces much softer than the sheet
+    this change matters little; the length is then larger by the ratio of the two compliances over
+    h.
     """
     sheet = nip.sheet
     assert sheet is not None
@@ -45,10 +46,10 @@ def squeeze_layer(nip: Nip) -> float:
 def unlike_layer(rollers: Sequence[Roller], tolerance: float) -> float:
     """Return the length in which nodes crowd beside compressible surfaces, over the width.
 
-    Beside a stiff sheet tractions at the end of a zone go as s^(1/2 + i e) in stick, where
-    tanh(pi e) = b, and as s^(1/2 + e) in slip, tan(pi e) = mu b, with Dundurs' constant
-    b = (1 - 2 nu)/(2 (1 - nu)) of the surface. Nodes at cosine places follow the root alone: ends
-    are misplaced by about b^2 of the first element, which crowding makes shorter.
+    Beside a stiff sheet the tractions at a zone end behave as s^(1/2 + i e) in stick, with tanh(pi
+    e) = b, and as s^(1/2 + e) in slip, with tan(pi e) = mu b, where b = (1 - 2 nu)/(2 (1 - nu)) is
+    Dundurs' constant of the surface. Nodes at cosine places follow the square root only, which
+    misplaces the ends by about b^2 times the first element; crowding makes that element shorter.
     """
     ratios = [roller.materials[0].poisson for roller in rollers if roller.materials]
     most = max((0.5 * (1.0 - 2.0 * ratio) / (1.0 - ratio) for ratio in ratios), default=0.0)

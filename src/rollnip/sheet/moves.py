@@ -1,4 +1,4 @@
-"""Moves of the ends of zones from mesh to mesh, by the secants through the last two of each."""
+"""Secant steps for zone ends, each from its last two moves on meshes of one size."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Bounds of the proposed move over the error of an end.
+# Bounds of the secant slope: proposed move over the actual error of an end.
 _SLOPES = 0.4, 2.5
 
 
 class Ends(Protocol):
-    """Zones, as far as their moves ask."""
+    """Zones with adjustable ends, as far as the secant steps use them."""
 
     @property
     def ends(self) -> Array:
-        """The ends of the zones of both interfaces, one after the other, (m,) [mm]."""
+        """The zone ends of both interfaces, one after the other, (m,) [mm]."""
         ...
 
     @property
@@ -32,7 +32,7 @@ class Ends(Protocol):
         ...
 
     def with_ends(self, ends: Array) -> Self:
-        """Return the same zones between other ends."""
+        """Return zones with the same states and other ends."""
         ...
 
 
@@ -41,15 +41,15 @@ Z = TypeVar("Z", bound=Ends)
 
 @dataclass(slots=True)
 class Moves(Generic[Z]):
-    """Ends of like zones on the last mesh, and what the moves that were proposed are worth.
+    """State of the secant iteration: last zone ends, their proposed moves, and secant slopes.
 
     Attributes
     ----------
-    zones : on the last mesh of this size; None: on none yet.
-    step : (m,) how far its solution moved their ends [mm].
-    slopes : (m,) by how much the proposed move is less, per move of each end. It is 1 where a
-        surface responds as a half-plane does over the first elements. The next size of mesh
-        begins with these slopes.
+    zones : on the last mesh of this size; None before the first mesh.
+    step : (m,) moves of their ends that the solution proposed [mm].
+    slopes : (m,) secant slopes: the decrease of the proposed move per distance moved, for each end.
+        The slope is 1 where a surface responds as a half-plane over the first elements. The slopes
+        are kept for the next mesh size.
     """
 
     zones: Z | None = None
@@ -57,16 +57,16 @@ class Moves(Generic[Z]):
     slopes: Array | None = None
 
     def refined(self) -> None:
-        """Note that the next zones lie on a mesh of another size."""
+        """Begin with meshes of another size: forget the last move, keep the slopes."""
         self.step = None
 
     def next(self, zones: Z, proposed: Z) -> Z:
-        """Return where to put the ends next, each by the secant through its last two moves.
+        """Return zones whose ends are placed by secants through their last two moves.
 
         Parameters
         ----------
-        zones : as they were on the last mesh.
-        proposed : where its solution puts them.
+        zones : on the last mesh.
+        proposed : the zones with their ends where the solution on that mesh puts them.
         """
         here, step = zones.ends, proposed.ends - zones.ends
         before, step_before = self.zones, self.step
@@ -76,7 +76,7 @@ class Moves(Generic[Z]):
             return proposed
         if step_before is not None:
             moved = here - before.ends
-            # between two places that ask for opposite ways the secant needs no bound
+            # between two places with moves of opposite sign the secant interpolates: no bound
             most = np.where(step * step_before < 0.0, np.inf, _SLOPES[1])
             with np.errstate(divide="ignore", invalid="ignore"):
                 slopes = np.clip((step_before - step) / moved, _SLOPES[0], most)

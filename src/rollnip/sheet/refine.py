@@ -1,4 +1,4 @@
-"""Sizes of mesh, finer and finer, until the estimated errors of all figures are small enough."""
+"""Mesh refinement until the estimated errors of all figures are within the tolerance."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ from rollnip.sheet.figures import NAMES, SheetFigures, ratio
 from rollnip.sheet.kind import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
 from rollnip.sheet.powers import off_the_moments, slip_works
 
-_GROWTH = 1.6  # of the number of elements from size to size, at most
+_GROWTH = 1.6  # largest growth of the number of elements from size to size
 _LEAST_GROWTH = 1.25
-_MORE = 1.4  # than as many elements as bring an error to the tolerance
+_MORE = 1.4  # safety factor on the number of elements that would meet the tolerance
 _MOST_ELEMENTS = 340
-_CLOSELY_TO = 60  # elements beyond which ends are placed better
-_PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
-_MOST_FOR_LENGTH = 60.0  # elements that a first size is given for these
-_MOST_FAILURES = 3  # sizes of mesh in a row whose zones do not settle
+_CLOSELY_TO = 60  # elements beyond which zone ends are placed more accurately
+_PER_LENGTH = 1.6  # elements of the first size per bending length in the width
+_MOST_FOR_LENGTH = 60.0  # upper limit of the first size for this reason
+_MOST_FAILURES = 3  # mesh sizes in a row whose zones do not converge
 _PEAK = NAMES.index("peak_pressure")
 T = TypeVar("T", bound=AnyAttempt, covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
 class Refined(Generic[T]):
-    """The last solution, its figures and their estimated errors.
+    """The solution on the finest mesh, its figures and their estimated errors.
 
     Attributes
     ----------
-    attempt : the solution on the finest meshes.
-    on_sides, errors_on_sides : figures and errors with width, highest pressure and its place of the
-        upper interface; of a plate those of the lower one follow. Errors are inf where unknown.
-    residual : how badly it violates the conditions.
-    count : about how many elements the meshes were to have.
-    cut : how far the conditions are violated by what "finite" leaves out of its correction.
-    cut_losses : how much that changes the friction loss of either side [N/mm].
+    attempt : the solution on the finest meshes. on_sides, errors_on_sides : figures and errors with
+    width, peak pressure and its place of the upper
+        interface; for a plate, those of the lower interface follow. Unknown errors are inf.
+    residual : of the contact conditions.
+    count : approximate number of elements.
+    cut : residual due to what the correction of "finite" leaves out.
+    cut_losses : change of the friction loss of each side due to the same [N/mm].
     """
 
     attempt: T
@@ -80,18 +80,18 @@ def refine(
     half_width: float,
     before: S | None = None,
 ) -> Refined[S]:
-    """Solve on ever finer meshes until the estimated errors are below the tolerance.
+    """Solve on finer and finer meshes until the estimated errors are within the tolerance.
 
     Parameters
     ----------
-    kind, model, kernels : the problem, how it is computed, and its influence functions.
-    half_width : about that of the contact [mm].
-    before : a solution to begin with; None: one of the linear geometry.
+    kind, model, kernels : the problem, how it is solved, and its influence functions.
+    half_width : approximate half-width of the contact [mm].
+    before : a solution to start from; None: start in linear geometry.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where no size of mesh has a solution.
+        where no mesh size has a solution.
     """
     search, count = kind.search(model, kernels), elements_to_begin_with(kind, half_width)
     attempt = search.begun(half_width, round(count)) if before is None else before
@@ -131,20 +131,20 @@ def refine(
 def elements_to_begin_with(
     kind: SheetKind[S], half_width: float, least: float = FIRST_SIZE
 ) -> float:
-    """Return a number of elements that resolves what the sheet does, no less than ``least``."""
+    """Return a number of elements that resolves the bending length, at least ``least``."""
     lengths = 2.0 * half_width / kind.bending_length
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
 def _size_of(kind: SheetKind[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
-    """Return what the estimates of errors ask of a size of mesh."""
+    """Return a solution in the form that the error estimates take."""
     return SizeOfMesh(count, kind.figures(attempt, geometry), attempt.zones)
 
 
 def _excess(
     kind: SheetKind[S], model: Model, here: SizeOfMesh, errors: tuple[SheetFigures, ...]
 ) -> float:
-    """Return the largest error of the figures that the tolerance is for, over the one allowed."""
+    """Return the largest error over its allowed value, of the figures with a tolerance."""
     most = 0.0
     for figures, error, allowed in zip(
         here.figures, errors, kind.peaks_allowed(model), strict=True
@@ -163,11 +163,11 @@ def _with_zones_of(
     history: list[SizeOfMesh],
     count: int,
 ) -> list[SizeOfMesh]:
-    """Return the sizes of mesh before a solution, the last of them with its zones.
+    """Return a history that can be compared with a solution: its last entry has the same zones.
 
-    Where a solution has other zones than the sizes before, which missed them, what it changes says
-    nothing of its own errors. The last size before, of ``count`` elements, is solved again,
-    with nodes at the ends of these zones.
+    Where a solution has other zones than the coarser sizes, its change from those says nothing
+    about its own error. The last size, of ``count`` elements, is then solved again with nodes at
+    the ends of the new zones.
     """
     if not history or history[-1].zones.is_like(attempt.zones):
         return history
@@ -181,17 +181,17 @@ def _with_zones_of(
 
 
 def _closely(count: float) -> float:
-    """Return the allowed error of ends over the tolerance: less on finer meshes, as their errors.
+    """Return the allowed error of zone ends over the tolerance, tighter on finer meshes.
 
-    Else the changes between sizes would be those of misplaced ends.
+    Otherwise the changes between sizes would be those of misplaced ends.
     """
     return CLOSELY * min(1.0, (_CLOSELY_TO / count) ** 2)
 
 
 def _next_count(count: float, excess: float) -> float:
-    """Return how many elements an error so many times too large asks for; inf: no more are left.
+    """Return the number of elements to reduce the error by ``excess``; inf: no finer size is left.
 
-    As if errors were of second order in the size of the elements.
+    Errors are assumed to be of second order in the element length.
     """
     growth = min(max(_MORE * sqrt(excess), _LEAST_GROWTH), _GROWTH)
     return min(count * growth, _MOST_ELEMENTS) if _LEAST_GROWTH * count < _MOST_ELEMENTS else inf
@@ -200,7 +200,7 @@ def _next_count(count: float, excess: float) -> float:
 def _with_overlap(
     kind: SheetKind[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
 ) -> Refined[S]:
-    """Return a solution with what it overlaps outside the contact, too."""
+    """Return a solution whose residual and errors include the check outside the contact."""
     left = max(refined.residual, kind.overlap(refined.attempt, kernels, geometry))
     return with_errors_of_powers(kind, replace(refined, residual=left), geometry)
 
@@ -208,9 +208,10 @@ def _with_overlap(
 def with_errors_of_powers(
     kind: SheetKind[S], refined: Refined[S], geometry: Geometry
 ) -> Refined[S]:
-    """Return a solution that claims slip along its own shear, and errors of torques.
+    """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
-    The former has no place in its losses. Only at finite strain are moments as exact as torques.
+    Slip along its own shear cannot be counted as a loss. Only at finite strain are the moments of
+    the tractions as exact as the torques.
     """
     attempt = refined.attempt
     works = slip_works(attempt, geometry, kind.pulls(attempt, geometry))
@@ -224,9 +225,9 @@ def with_errors_of_powers(
 def on_last_mesh(
     kind: SheetKind[S], refined: Refined[S], attempt: S, kernels: PairKernels, left: float
 ) -> Refined[S]:
-    """Return a refined solution at finite strain with other terms on its last mesh.
+    """Return a refined solution at finite strain with other lagged terms on its last mesh.
 
-    ``left``: how badly it violates the conditions of gap and creep.
+    ``left``: residual of the gap and creep conditions.
     """
     left = max(left, violation(attempt), kind.overlap(attempt, kernels, "finite"))
     figures = kind.figures(attempt, "finite")

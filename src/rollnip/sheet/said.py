@@ -1,4 +1,4 @@
-"""What a status says of the errors of a nip with a sheet."""
+"""The part of the status that names errors beyond the tolerance."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ Solved = TypeVar("Solved", bound=SheetSolution)
 
 
 def with_errors_said(solution: Solved) -> Solved:
-    """Return a solution whose status names each error beyond the tolerance, if it is valid.
+    """Return a valid solution with all errors beyond the tolerance named in its status.
 
-    Figures of which the model leaves more than the tolerance open may have as much from the mesh.
+    Where the model leaves a figure uncertain by more than the tolerance, the mesh may contribute as
+    much.
     """
     if not solution.converged:
         return solution
@@ -27,11 +28,11 @@ def with_errors_said(solution: Solved) -> Solved:
 
 
 def relative_errors(solution: SheetSolution) -> dict[str, float]:
-    """Return the claimed errors of all figures that the tolerance is for, over their sizes.
+    """Return the claimed relative errors of all figures to which the tolerance applies.
 
-    Their names are words for the figures; that of the creepages, of the rollers and of either one
-    against the sheet, is the largest. On the lower roller a sheet that bends has a width and a
-    highest pressure of its own.
+    The keys are words for the figures. That for the creepages, of the rollers and of each roller
+    against the sheet, is the largest of the three. A plate has a width and a peak pressure of its
+    own on the lower roller.
     """
     figures, errors = solution.refined.figures, solution.sheet_errors()
     sizes = dict(zip(NAMES, scales(solution.nip, figures).tolist(), strict=True))

@@ -1,4 +1,4 @@
-"""The flow of one solution with a sheet."""
+"""Solve a nip with a sheet: choose plate or membrane, solve it, and assemble the result."""
 
 from __future__ import annotations
 
@@ -36,27 +36,31 @@ from rollnip.sheet.search import SheetAttempt
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_reservations
 
-# Largest change of a width, in the share of the bending length, of the nips of decision 16, and the
-# largest share of these.
+# Largest relative change of a width over the ratio of bending length to nip width, among the nips
+# of decision 16, and the largest such ratio among them.
 _WIDTHS_BY_STIFFNESS, _WIDTHS_MEASURED = 2.0, 0.2
 Record = tuple[str, tuple[Reservation, ...]]
-"""Version of rollnip, and what there is to say of a sheet before it is solved."""
+"""Version of rollnip, and reservations that are known before the sheet is solved."""
 
 
 def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
     """Solve the steady rolling of two rollers with a sheet between them.
 
+    The sheet is solved as a plate where its bending stiffness is asked for, or where it is left
+    open and the spreading length is not small against the nip width. Otherwise, or where no plate
+    solution can be verified, it is solved as a membrane.
+
     Parameters
     ----------
     nip : with a sheet.
     model : geometry "linear", "curved", "second" or "finite".
-    cache : influence functions of solves before.
+    cache : influence functions from earlier solves.
     version : of rollnip, for the record.
 
     Raises
     ------
     InvalidInputError
-        where the geometry is "corrected", or friction cannot carry what is asked for.
+        where the geometry is "corrected", or friction cannot carry what is prescribed.
     ConvergenceError
         where no solution was found at all.
     """
@@ -74,7 +78,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         counted = solve_plate(nip, model, cache, record)
         if counted is not None:
             return counted
-        if bending_length(nip) > freely:  # else its errors include what its tension changes
+        if bending_length(nip) > freely:  # otherwise the errors cover the tension's effect
             said = "No solution with the sheet's bending stiffness could be verified."
             record = (version, (Reservation("no_plate", said),))
     return _bending_freely(nip, model, cache, record, start)
@@ -87,9 +91,10 @@ def _bending_freely(
     record: Record,
     start: float,
 ) -> SheetSolution:
-    """Return the solution of a sheet without stiffness.
+    """Return the solution of the sheet as a membrane.
 
-    ``record``: version, and why stiffness that shows was left out; such a solution is not verified.
+    ``record``: version, and why a bending stiffness that matters was neglected; in that case the
+    solution does not count as verified.
     """
     version, simpler = record
     model, kernels, refined, left = _refined(nip, model, cache)
@@ -130,7 +135,10 @@ def _bending_freely(
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[Model, PairKernels, Refined[SheetAttempt], tuple[Reservation, ...]]:
-    """Return the model solved, influence functions, the solution, and why it is another model."""
+    """Return the solved model, influence functions, the solution, and reservations on the model.
+
+    Where the asked geometry has no settled solution, simpler ones are tried in turn.
+    """
     left: list[Geometry] = []
     while True:
         found = _attempt(nip, model, cache)
@@ -145,7 +153,7 @@ def _refined(
 
 
 def _none_found(nip: Nip) -> str:
-    """Return the words for a sheet without a solution."""
+    """Return the error message for a sheet without a solution."""
     assert nip.sheet is not None
     if may_slide_at_any_speed(nip):
         return (
@@ -164,7 +172,7 @@ def _none_found(nip: Nip) -> str:
 def _attempt(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[PairKernels, Refined[SheetAttempt]] | None:
-    """Return influence functions and the solution in one geometry; None where there is none."""
+    """Return influence functions and the solution in one geometry; None where none exists."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
@@ -178,7 +186,7 @@ def _attempt(
 
 
 def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
-    """Return a solution as the round of a bare nip, with the shear of the upper side."""
+    """Return a membrane solution as the `Round` of a bare nip, with the shear of the upper side."""
     attempt, figures = refined.attempt, refined.figures
     mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
     total = attempt.state.creepage + attempt.state.creepage_lower
@@ -214,7 +222,7 @@ def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
 
 
 def _reservations(nip: Nip, refined: Refined[SheetAttempt]) -> tuple[Reservation, ...]:
-    """Return reservations on the sheet."""
+    """Return the reservations on compression of the sheet and on its neglected bending."""
     length = spreading_length(nip)
     share = length / refined.figures.nip_width
     if not share > STIFF:
@@ -237,7 +245,7 @@ def _reservations(nip: Nip, refined: Refined[SheetAttempt]) -> tuple[Reservation
 
 
 def _how_far_off(share: float) -> str:
-    """Return how far widths may be off where the bending length is such a share of the width."""
+    """Return the sentence on the error of the widths, for a spreading length over the nip width."""
     if share > _WIDTHS_MEASURED:
         return " Both may be far off."
     return (

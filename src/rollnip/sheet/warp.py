@@ -1,18 +1,20 @@
-r"""How the pressure on the faces of a sheet stretches these, beside its bending.
+"""Local stretch of a sheet's faces under pressure, in addition to its bending.
 
-An elastic layer of modulus E between pressures p on both faces is stretched along by
+An elastic layer of modulus E with pressures p on both faces is stretched in its plane by
 nu (1 + nu) p/E less (1 - nu^2)/E times
 
     (sinh y - y)/(sinh y + y),    (sinh y + y)/(sinh y - y) - 12/y^2,    y = kh,
 
-of pressures that are alike and that are opposite; what the plate's bending does is 12/y^2. Long
-waves have 0 and 2/5 of it, short ones all of it: (1 - 2 nu)(1 + nu) p/E is the half-space's.
+for equal and for opposite pressures on the two faces, k being the wave number; 12/y^2 is the
+bending of a plate. For long waves these functions are 0 and 2/5, for short waves both are 1,
+which leaves (1 - 2 nu)(1 + nu) p/E, the value of the half-space.
 
-The faces move by the integral of that stretch. In space it is made of the triple integral of the
-share, x |x|/4 of its long waves, a step -r/2 sgn x that y^2 in its series leaves (1/12, 11/700),
-and a sum over the roots of sinh y = -y and sinh y = y.
+The faces are displaced by the integral of that stretch. In space it consists of the triple
+integral of these functions: x |x|/4 times their long-wave limits, a step -r/2 sgn x due to the
+y^2 terms of their series (r = 1/12 and 11/700), and a sum over the roots of sinh y = -y and
+sinh y = y.
 
-As work is mutual, shears give the faces way by as much as pressures move them along.
+By reciprocity, shears squeeze the faces by as much as pressures displace them tangentially.
 """
 
 from __future__ import annotations
@@ -26,22 +28,23 @@ from rollnip.sheet.squeeze import FAR, PLACES, add_spread, roots
 
 Array = NDArray[np.float64]
 
-LONG_WAVES = (0.0, 0.4)  # shares of pressures that are alike and opposite
-_STEPS = (1.0 / 12.0, 11.0 / 700.0)  # y^2 in their series
+LONG_WAVES = (0.0, 0.4)  # long-wave limits for equal and for opposite pressures
+_STEPS = (1.0 / 12.0, 11.0 / 700.0)  # coefficients of y^2 in their series
 
 
 def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[np.bool_]) -> Array:
-    """Return the integral of the stretch from some places on over (1 - nu^2)/E, (m, s) [mm MPa].
+    """Return the integral of the local stretch from each place to infinity, (m, s) [mm MPa].
 
-    Without the long waves, which take `LONG_WAVES` of the integral of the pressure.
+    It is divided by (1 - nu^2)/E and excludes the long-wave part, which is `LONG_WAVES` times the
+    integral of the pressure.
 
     Parameters
     ----------
     thickness : of the sheet [mm].
     x : (m,) places [mm].
-    nodes : (N + 1,) between which tractions are straight lines [mm].
-    lines : (N + 1, s) their values, 0 at both ends [MPa].
-    far : (m,) whether a place is on the other face than the tractions.
+    nodes : (N + 1,) between which tractions are linear [mm].
+    lines : (N + 1, s) nodal values of s sets of tractions, 0 at both ends [MPa].
+    far : (m,) whether a place is on the face opposite to the tractions.
     """
     signs = np.where(far, -1.0, 1.0)
     slopes = np.zeros((nodes.size + 1, lines.shape[1]))
@@ -56,7 +59,7 @@ def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[
 
 @lru_cache(maxsize=2)
 def _table(sign: float) -> Array:
-    """Return the cubics of half of both spreads; ``sign``: that of opposite pressures."""
+    """Return cubic pieces of half of both kernels; ``sign``: sign for opposite pressures."""
     from scipy.interpolate import CubicSpline  # loads more than 200 modules
 
     away = FAR * np.linspace(0.0, 1.0, PLACES) ** 3
@@ -65,7 +68,7 @@ def _table(sign: float) -> Array:
 
 
 def _spread(sign: float, away: Array) -> Array:
-    """Return the sum over the roots of sinh y + sign y = 0 at distances over h."""
+    """Return the sum over the roots of sinh y + sign y = 0, at distances over h."""
     root = roots(sign)
     parts = sign * 2.0 / (root**2 * (np.cosh(root) + sign))
     return np.array([2.0 * float(np.sum(parts * np.exp(1j * root * one)).real) for one in away])

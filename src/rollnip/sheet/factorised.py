@@ -1,4 +1,4 @@
-"""The linear system that given states of both interfaces of a sheet make."""
+"""The linear system of a membrane for given contact, stick and slip, LU-factorised."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Factorised:
-    """The linear system that given states make, factorised."""
+    """The factorised linear system for given states, to be solved for several lagged terms."""
 
     problem: SheetProblem
     states: States
@@ -26,12 +26,12 @@ class Factorised:
 
     @classmethod
     def of(cls, problem: SheetProblem, states: States) -> Factorised:
-        """Factorise the system for given states (2, n); no condition is checked.
+        """Factorise the system for given states, (2, n), without checking the contact conditions.
 
         Raises
         ------
         numpy.linalg.LinAlgError
-            where the states leave the system singular.
+            where the states make the system singular.
         """
         factors, pivots, info = lapack.dgetrf(_matrix(problem, states).T, overwrite_a=1)
         if info != 0:
@@ -39,7 +39,7 @@ class Factorised:
         return cls(problem, states, factors, pivots)
 
     def solved(self, lagged: Lagged) -> SheetState:
-        """Return the solution for these states."""
+        """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
         unknowns, info = lapack.dgetrs(
             self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
@@ -67,17 +67,17 @@ class Factorised:
 
 
 def _places(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the nodes in contact, and the places of sticking shears among both interfaces'."""
+    """Return the indices of nodes in contact, and of sticking shears among both interfaces'."""
     return (states[0] != State.FREE).nonzero()[0], (states == State.STICK).reshape(-1).nonzero()[0]
 
 
 def _ratios(problem: SheetProblem, states: States) -> Array:
-    """Return shear over pressure where interfaces slip, 0 elsewhere, (2, n)."""
+    """Return shear over pressure where the interfaces slip, 0 elsewhere, (2, n)."""
     return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
 
 
 def _matrix(problem: SheetProblem, states: States) -> Array:
-    """Return the matrix of gap in contact, creeps in stick, and the three prescribed quantities."""
+    """Return the matrix of gaps in contact, creeps in stick, and three prescribed quantities."""
     n, (contact, sticks) = states.shape[1], _places(states)
     n_c, size = contact.size, contact.size + sticks.size
     rows = np.concatenate([contact, n + sticks])
@@ -98,7 +98,7 @@ def _matrix(problem: SheetProblem, states: States) -> Array:
         matrix[-3, :n_c] = weights[contact]
     else:
         matrix[-3, -3] = 1.0
-    # What the tension gains, then T_l or the sum of the creepages.
+    # The change of tension through the nip, then T_l or the sum of the creepages.
     matrix[-2, :size] = _sums(problem.pulls, ratios[0], contact, sticks)
     matrix[-2, :size] -= _sums(problem.pulls, ratios[1], contact, sticks - n)
     if isinstance(problem.nip.tangential, Creepage):
@@ -111,9 +111,9 @@ def _matrix(problem: SheetProblem, states: States) -> Array:
 def _sums(
     weights: Array, ratio: Array, contact: NDArray[np.intp], sticks: NDArray[np.intp]
 ) -> Array:
-    """Return an integral of one interface's shear per pressure and sticking shear.
+    """Return the integral of one interface's shear, per pressure and per sticking shear.
 
-    ``sticks``: nodes of sticking shears; those that are none stand for shears of the other side.
+    ``sticks``: node indices of sticking shears; indices out of range belong to the other interface.
     """
     own = (sticks >= 0) & (sticks < weights.size)
     stuck = np.where(own, weights[np.where(own, sticks, 0)], 0.0)

@@ -72,8 +72,7 @@ class SheetKind(Protocol[S]):
         ...
 
     def overlap(self, attempt: S, kernels: PairKernels, geometry: Geometry) -> float:
-        """Return the relative overlap outside the contact, or the relative tensile pressure in it.
-        """
+        """Return the relative overlap outside the contact, or the relative tension in it."""
         ...
 
     def holding(self, attempt: S, kernels: PairKernels) -> S:

@@ -1,4 +1,8 @@
-"""Terms of a sheet's contact that depend on its solution: stretch, path of the sheet, torque."""
+"""Lagged terms of a membrane's contact: finite stretch, path of the sheet, prescribed torque.
+
+They depend on the solution and are evaluated from the previous iterate, so that each iterate is
+the solution of a linear system.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +25,7 @@ Array = NDArray[np.float64]
 
 
 def first_lagged(problem: SheetProblem) -> Lagged:
-    """Return zero terms, and the prescribed traction; zero traction for a prescribed torque."""
+    """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     n, tangential = problem.mesh.inner.size, problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
     traction = 0.0 if isinstance(tangential, Torque) else traction
@@ -29,12 +33,12 @@ def first_lagged(problem: SheetProblem) -> Lagged:
 
 
 def has_none(problem: SheetProblem, geometry: Geometry) -> bool:
-    """Return whether nothing depends on the solution."""
+    """Return whether the problem is linear, without any term that depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
 
 
 def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -> Lagged:
-    """Return the terms of a solution."""
+    """Return the lagged terms that follow from a solution."""
     first = first_lagged(problem)
     if has_none(problem, geometry):
         return first
@@ -56,7 +60,7 @@ def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -
 
 
 def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
-    """Return the largest change of the terms, relative to the first-order ones."""
+    """Return the largest change of the terms, relative to the first-order quantities."""
     nip, mesh = problem.nip, problem.mesh
     half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half
@@ -73,11 +77,12 @@ def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState
 
 
 def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
-    """Return how badly a solution violates its conditions with other terms, relative.
+    """Return the relative residual of a solution under other lagged terms.
 
-    ``old``: the terms that it was solved with. The parts are gaps under pressure, over the approach
-    and the highest pressure, and how far surfaces that stick creep along each other, over the width
-    and the scale of a creepage.
+    ``old``: the terms that it was solved with; ``new``: those it is checked with. The residual is
+    the largest of the gap under pressure, over the approach and weighted by the pressure over its
+    peak, and of the distances that sticking surfaces creep, over the width and the scale of a
+    creepage.
     """
     nip, mesh = problem.nip, problem.mesh
     half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
@@ -91,15 +96,15 @@ def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -
 
 
 def pressed_gap(gap: Array, pressure: Array) -> float:
-    """Return the largest gap under pressure, times the pressure over the highest one [mm]."""
+    """Return the largest gap under pressure, weighted by pressure over peak pressure [mm]."""
     peak = float(np.abs(pressure).max())
     return float(np.abs(gap * pressure).max()) / peak if peak > 0.0 else 0.0
 
 
 def creep_in_stick(creep: Array, states: States) -> float:
-    """Return the largest distance by which surfaces creep along each other where they stick [mm].
+    """Return the largest distance that surfaces creep within a run of sticking nodes [mm].
 
-    ``creep``, ``states``: of the intervals and of the nodes at which they begin.
+    ``creep``, ``states``: of the intervals, and of the nodes at which they begin.
     """
     sticks = states == State.STICK
     along = np.concatenate([[0.0], np.cumsum(np.where(sticks, creep, 0.0))])
@@ -115,11 +120,11 @@ def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:
 
 
 def path_turn(problem: SheetProblem, u: Displacements) -> Array:
-    """Return the change of the slope of the sheet's middle over each interval of nodes[1:], (n,).
+    """Return the change of slope of the sheet's middle over each interval of nodes[1:], (n,).
 
-    The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2,
-    and its curvature d^2y/dx^2 is positive where its centre is on the upper side. A bare rigid
-    roller has the curvature itself. ``u``: displacements at nodes[1:].
+    The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2.
+    Its curvature d^2y/dx^2 is positive where the centre of curvature is on the upper side. On a
+    bare rigid roller the sheet has the curvature of that roller. ``u``: displacements at nodes[1:].
     """
     nip, mesh = problem.nip, problem.mesh
     if nip.upper.is_rigid or nip.lower.is_rigid:
@@ -136,9 +141,9 @@ def _offsets(
     flat: Displacements,
     u: Displacements,
 ) -> Array:
-    """Return what stretch, path and products of creepage and strain add to the linear creeps.
+    """Return the nonlinear part of both creeps: stretch, path, and products of creepage and strain.
 
-    The creep of the upper interface is (V_u/V) stretch_u - (V_s/V) (1 + e - h kappa/2), of the
+    The creep of the upper interface is (V_u/V) stretch_u - (V_s/V) (1 + e - h kappa/2), that of the
     lower one (V_s/V) (1 + e + h kappa/2) - (V_l/V) stretch_l.
     """
     nip, mesh = problem.nip, problem.mesh
@@ -149,7 +154,7 @@ def _offsets(
     half = 0.5 * (state.creepage + state.creepage_lower)
     rate = sheet_rate(state.creepage, state.creepage_lower)
     turn = rate * path_turn(problem, u)
-    if problem.has_path:  # of the linear displacements it is in the matrix
+    if problem.has_path:  # the matrix includes the path by linear displacements
         turn -= 0.5 * problem.path.turn(flat.z_upper - flat.z_lower)
     bend = 0.5 * problem.sheet.thickness * turn
     strained = (rate - 1.0) * problem.strain_over(state)
@@ -159,7 +164,7 @@ def _offsets(
 
 
 def _lean(problem: SheetProblem, state: SheetState, u: Displacements) -> float:
-    """Return int q slope dx, shear and slope those of both surfaces on average."""
+    """Return int q slope dx, with the mean shear and slope of both surfaces [N/mm]."""
     nip, mesh = problem.nip, problem.mesh
     shear = 0.5 * (state.shear + state.shear_lower)
     levers = mesh.weights @ (shear * mesh.inner)
@@ -172,8 +177,9 @@ def pulls_of(
 ) -> tuple[float, float]:
     """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:].
 
-    With the loss inside it is a torque over the radius only in an equilibrium under these very
-    tractions: with the short waves that the contact does not follow, where it sticks, too.
+    Together with the internal loss it equals the torque over the radius only in equilibrium under
+    these very tractions. Hence ``u`` must include the short waves that the contact conditions in
+    stick do not follow.
     """
     mesh = problem.mesh
     x, fine = mesh.fine.nodes[1:], mesh.finer(u)

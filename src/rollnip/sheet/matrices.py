@@ -1,4 +1,4 @@
-"""Matrices of a sheet's contact on a mesh: gap and creeps per nodal traction, tension per shear."""
+"""Matrices of a membrane's contact on a mesh: gap and creeps per traction, tension per shear."""
 
 from __future__ import annotations
 
@@ -15,22 +15,23 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-_STEEP = 4.0  # how fast the integral of the tension changes its kind
-_NONE = 1e-12  # share of lumped forces that rounding hides
+_STEEP = 4.0  # exponent of the blend between exact and lumped integrals of the tension
+_NONE = 1e-12  # share of lumped forces below rounding
 _DEGREE = 8  # of the polynomial along the path of the sheet
-_SLOPES = legendre.legder(np.eye(_DEGREE + 1))  # of Legendre polynomials, by those of lower degree
+# Derivatives of Legendre polynomials, expressed by those of lower degree.
+_SLOPES = legendre.legder(np.eye(_DEGREE + 1))
 
 
 @dataclass(frozen=True, slots=True)
 class Integrals:
     """Integrals of nodal tractions along the sheet, per value at ``mesh.inner``.
 
-    Exact for the straight lines along which tractions act. ds is along the sheet's path.
+    They are exact for piecewise-linear tractions; ds is along the sheet's path.
 
     Attributes
     ----------
     beyond : (n, n) int_x^inf t ds at these nodes [mm].
-    over : (n, n) its integral dx over the intervals [mm^2].
+    over : (n, n) integral of ``beyond`` dx over the intervals [mm^2].
     pressed : (n, n) int t dx over the intervals [mm].
     whole : (n,) int t ds [mm].
     """
@@ -42,7 +43,7 @@ class Integrals:
 
     @classmethod
     def on(cls, mesh: Mesh, arcs: Array) -> Integrals:
-        """Integrate on a mesh; ``arcs``: ds/dx on the intervals of its finer nodes."""
+        """Integrate on a mesh; ``arcs``: ds/dx on the intervals of its fine nodes."""
         fine, n = mesh.fine, mesh.inner.size
         assert fine.acting is not None
         dx, along = np.diff(fine.nodes)[:, None], arcs[:, None]
@@ -68,16 +69,16 @@ class Integrals:
 
 @dataclass(frozen=True, slots=True)
 class SheetPath:
-    """The path of a sheet: the polynomial nearest to some heights over the contact.
+    """The path of a sheet as a least-squares polynomial through heights over the contact.
 
-    The path is as smooth as the sheet's bending stiffness makes it, and its curvature matters on
-    the scale of the nip. The polynomial goes through heights at nodes, for cubics between a few of
-    these do not follow its highest degrees, and the shares of the contact that nodes stand for are
-    those of a pressure, exact to the fourth order.
+    The sheet's bending stiffness makes its path smooth, and its curvature matters on the scale of
+    the nip. The fit uses nodal heights, because the cubics between a few nodes do not follow the
+    highest degrees of the polynomial. It weights them with the integration weights of a pressure,
+    which are exact to fourth order.
 
     Attributes
     ----------
-    slopes : (n, 9) change of the slope over each interval of nodes[1:] per coefficient [1/mm].
+    slopes : (n, 9) change of slope over each interval of nodes[1:] per coefficient [1/mm].
     nearest : (9, n) coefficients of the polynomial per height at ``mesh.inner``.
     """
 
@@ -86,24 +87,24 @@ class SheetPath:
 
     @classmethod
     def on(cls, mesh: Mesh) -> SheetPath:
-        """Find it on a mesh, in the mean of the square."""
+        """Return the least-squares fit on a mesh."""
         x = mesh.inner
         middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
         basis = legendre.legvander((x - middle) / half, _DEGREE)
         weighted = basis * mesh.weights[:, None]
-        slopes = np.zeros(basis.shape)  # the last interval lies outside
+        slopes = np.zeros(basis.shape)  # the last interval lies outside the contact
         slopes[:-1] = np.diff(basis[:, :-1] @ _SLOPES, axis=0) / half
         return cls(slopes, np.asarray(np.linalg.solve(weighted.T @ basis, weighted.T), float))
 
     def turn(self, heights: Array) -> Array:
-        """Return the change of the slope over the intervals, for heights at nodes[1:], (n, ...)."""
+        """Return the change of slope over the intervals, for heights at nodes[1:], (n, ...)."""
         return np.asarray(self.slopes @ (self.nearest @ heights[:-1]))
 
     def bent(self, mesh: Mesh, thickness: float) -> Array:
-        """Return what the path adds to either creep per nodal p, q_u and q_l, (n, 3, n) [mm/MPa].
+        """Return the path's part of either creep per nodal p, q_u and q_l, (n, 3, n) [mm/MPa].
 
-        The faces run at 1 + e -+ h kappa/2: both creeps gain h/2 times the change of the slope of
-        the middle, which lies halfway between both surfaces, (u_z,u - u_z,l)/2.
+        The faces run at 1 + e -+ h kappa/2: both creeps gain h/2 times the change of slope of the
+        middle, which lies halfway between both surfaces, (u_z,u - u_z,l)/2.
         """
         _, zz_u, xz_u, _, zz_l, xz_l = mesh.per_traction
         parts = [self.turn(heights) for heights in (zz_u - zz_l, -xz_u, -xz_l)]
@@ -111,11 +112,12 @@ class SheetPath:
 
 
 def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
-    """Return the integral of the tension over each interval, kept stable where tension rules.
+    """Return the integral of the tension over each interval, stabilised where tension dominates.
 
-    Where an interval stretches more by the tension that its own node makes than by that node's
-    shear on the rollers, exact integrals of the tension let neighbouring shears alternate and
-    grow. There the force of each node acts at the node: second order, and stable for any sheet.
+    Where a node's shear stretches its interval more through the sheet's tension than through the
+    rollers, exact integration lets the shears of neighbouring nodes alternate and grow. There the
+    force of each node is lumped at the node, which is second-order accurate and stable for any
+    sheet.
     """
     dx, n = mesh.dx, mesh.inner.size
     ratio = sheet.stretch_by_tension * dx**2 / (6.0 * np.abs(own).min(axis=0))
@@ -129,7 +131,7 @@ def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
 def influence(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     """Return gap, upper and lower creep per nodal p, q_u and q_l, (3 n, 3 n) [mm/MPa].
 
-    The strain of the sheet by tension is left out.
+    The strain of the sheet due to tension is not included.
     """
     n, at_nodes = mesh.inner.size, found.beyond
     xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = mesh.per_traction
@@ -154,14 +156,14 @@ def influence(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     lower[:, 0] += pressed
     _add_bands(upper[:, 1], lower[:, 2], sheared / 3.0)
     _add_bands(upper[:, 2], lower[:, 1], sheared / 6.0)
-    last = n - 2  # surfaces stick up to a leading edge at the last node
+    last = n - 2  # in case the surfaces stick up to a leading edge at the last node
     for side in (1, 2):
         out[side, last, side, last] *= 1.0 - CREEP_TO_EDGE
     return out.reshape(3 * n, 3 * n)
 
 
 def _add_bands(upper: Array, lower: Array, value: float) -> None:
-    """Add the difference of neighbouring tractions times ``value`` to two matrices."""
+    """Add ``value`` times the difference of neighbouring tractions to two matrices."""
     for matrix in (upper, lower):
         n = matrix.shape[0]
         places = np.arange(n)
@@ -170,7 +172,7 @@ def _add_bands(upper: Array, lower: Array, value: float) -> None:
 
 
 def _add_hoops(mesh: Mesh, out: Array) -> None:
-    """Add -int u_z/R dx of both surfaces over the intervals to the creeps in ``out``."""
+    """Add the hoop stretch -int u_z/R dx of both surfaces to the creeps in ``out``."""
     means = mesh.fine.means
     assert means is not None
     whole = mesh.sums(np.diff(mesh.fine.nodes[1:])[:, None] * means)

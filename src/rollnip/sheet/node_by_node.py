@@ -1,4 +1,4 @@
-"""Contact, stick and slip of both interfaces of a sheet, sought together on one mesh."""
+"""Contact, stick and slip at all nodes of a membrane's mesh, without zones."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
-_LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
+_LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
 def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetState:
-    """Return the solution on a mesh whose contact, stick and slip meet all conditions.
+    """Return the solution on a mesh whose nodal contact, stick and slip meet all conditions.
 
-    ``half_width``: about that of the contact [mm].
+    It solves the complementarity problem of contact and friction by an interior-point method.
+    ``half_width``: approximate half-width of the contact [mm].
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where none is found.
+        where no solution is found.
     """
     n = problem.mesh.inner.size
     whole, start = _inequalities(problem, lagged, half_width)
@@ -53,10 +54,11 @@ def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float)
 def slipping(
     problem: SheetProblem, state: SheetState, lagged: Lagged, slack: float
 ) -> SheetState | None:
-    """Return the solution on a given contact whose stick and slip suit it; None where not near.
+    """Return the solution for a fixed contact with consistent stick and slip; None if not found.
 
-    Transitions move from node to node, so there are as many steps as nodes at most. ``state``: a
-    solution near to it; ``slack``: see `next_slip`.
+    In each step all nodes take the states that creep and shear call for. Transitions move by a node
+    at a time, so there are at most as many steps as nodes. ``state``: a solution close to it;
+    ``slack``: see `next_slip`.
     """
     tried: set[bytes] = set()
     for steps in range(1, state.states.size):
@@ -69,7 +71,7 @@ def slipping(
         tried.add(wanted.tobytes())
         try:
             state = Factorised.of(problem, wanted).solved(lagged)
-        except np.linalg.LinAlgError:  # nothing is left that sticks
+        except np.linalg.LinAlgError:  # no node sticks any more
             return None
     return None
 
@@ -77,10 +79,10 @@ def slipping(
 def next_slip(
     problem: SheetProblem, state: SheetState, creeps: tuple[Array, Array], slack: float
 ) -> States:
-    """Return the states of both interfaces that creep and shear call for; (2, n).
+    """Return the states of both interfaces that follow from creep and shear, (2, n).
 
-    Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
-    bound a node keeps its state.
+    Free nodes and nodes under tension keep their states. A node also keeps its state while its
+    shear is within ``slack`` times the bound at the peak pressure.
     """
     states = state.both_states
     little = slack * float(np.abs(state.pressure).max())
@@ -101,7 +103,7 @@ def next_slip(
 def _inequalities(
     problem: SheetProblem, lagged: Lagged, half_width: float
 ) -> tuple[Inequalities, Array]:
-    """Return gaps and creeps of a mesh and their bounds, and where to begin."""
+    """Return the complementarity problem of gaps and creeps on a mesh, and a starting point."""
     nip, n, weights = problem.nip, problem.mesh.inner.size, problem.mesh.weights
     matrix, right = np.zeros((3 * n + 3, 3 * n + 3)), np.zeros(3 * n + 3)
     matrix[: 3 * n, : 3 * n], right[: 3 * n] = problem.matrix, problem.right(lagged).reshape(-1)
@@ -140,7 +142,7 @@ def _inequalities(
 
 
 def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Array, float]:
-    """Return a pressure like an ellipse that presses the rollers as deep as they overlap."""
+    """Return an elliptic pressure that indents the rollers as deep as they overlap; its peak."""
     x, n = problem.mesh.inner, problem.mesh.inner.size
     middle = 0.5 * (x[0] + x[-1])
     ellipse = np.sqrt(np.maximum(1.0 - ((x - middle) / half_width) ** 2, 0.0))
@@ -152,9 +154,9 @@ def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Ar
 
 
 def parted(states: States, shear: Array) -> States:
-    """Return states of one interface with a node of stick where slip turns its sign.
+    """Return states of one interface with a sticking node wherever slip reverses its sign.
 
-    It is the one of less shear. ``states`` are changed.
+    It is the one of the two nodes with less shear. ``states`` is modified in place.
     """
     size = np.abs(shear)
     for i in np.flatnonzero((states[:-1] > State.STICK) & (states[1:] > State.STICK)):

@@ -1,20 +1,21 @@
-"""Two interfaces, one pressure: the linear system that given states of both interfaces make.
+"""Discrete equations of a membrane in the nip: two interfaces that share one pressure.
 
-Unknowns are the pressure p and the shears q_u on the upper and q_l on the lower roller's side of
-the sheet, the approach, and the creepages of both rollers against the sheet. The sheet's tension
+Unknowns are the pressure p, the shears q_u and q_l on the upper and the lower roller's side of the
+sheet, the approach, and the creepages of both rollers against the sheet. The sheet's tension
 follows from the shears, dN/dx = q_u - q_l, and its strain is e = a N + b p with
-a = (1 - nu^2)/(E h) and b = nu (1 + nu)/E. Per interval, towards the leading edge:
+a = (1 - nu^2)/(E h) and b = nu (1 + nu)/E. The equations, at each node or per interval towards the
+leading edge, are
 
     gap          = clearance - delta + u_z,u + u_z,l + squeeze p + b N          = 0 in contact
     creep, upper = xi_u dx + int (stretch_u - 1 - e_u) dx                       = 0 in stick
     creep, lower = xi_l dx + int (e_l - (stretch_l - 1)) dx                     = 0 in stick
 
-e_u and e_l are the strains of the sheet's faces, which differ from e by the shear through its
+e_u and e_l are the strains of the sheet's faces, which differ from e by the shear through the
 thickness: e_u = e - (h/G) d(q_u/3 + q_l/6)/dx, e_l = e + (h/G) d(q_u/6 + q_l/3)/dx. Beside a rubber
-covering this is nothing; on a bare rigid roller it keeps the shear continuous, over a length of
-about h, where stick ends.
+covering this is negligible; on a bare rigid roller it keeps the shear continuous where stick ends,
+over a length of about h.
 
-Slip: q = mu p sign(creep) on each interface, with its own coefficient mu.
+In slip, q = mu p sign(creep) on each interface, with its own coefficient mu.
 """
 
 from __future__ import annotations
@@ -37,13 +38,15 @@ from rollnip.sheets import Sheet
 Array = NDArray[np.float64]
 
 SIGNS = np.array([0.0, 0.0, 1.0, -1.0])
-"""Signs of the shear in the states of a node, in their order."""
+"""Sign of the shear for each state of a node, in the order of `State`."""
 _TINY = 1e-12  # mm/MPa
 
 
 @dataclass(frozen=True, slots=True)
 class SheetState(ContactState):
-    """A solution on a mesh; ``states``, ``shear`` and ``creepage`` are those of the upper side.
+    """A solution of the membrane problem on a mesh.
+
+    The inherited ``states``, ``shear`` and ``creepage`` are those of the upper interface.
 
     Attributes
     ----------
@@ -72,7 +75,7 @@ class SheetState(ContactState):
         return np.array((self.states, self.states_lower))
 
     def side(self, number: int) -> SheetState:
-        """Return one interface, 0 the upper, 1 the lower, as if it were all of the contact."""
+        """Return one interface, 0 the upper and 1 the lower, as a contact state of its own."""
         if number == 0:
             return self
         return replace(self, states=self.states_lower, shear=self.shear_lower)
@@ -81,14 +84,14 @@ class SheetState(ContactState):
 class SheetMesh(Mesh):
     """A mesh on which the lower roller has a shear of its own.
 
-    ``influence`` is empty: that of a contact with a sheet is `SheetProblem.matrix`.
+    ``influence`` is empty: the influence matrix is `SheetProblem.matrix`.
     """
 
     __slots__ = ()
     is_bare: ClassVar[bool] = False
 
     def linear_displacements(self, state: ContactState) -> Displacements:
-        """Return the displacements at nodes[1:], linear in the tractions."""
+        """Return the displacements at nodes[1:] that are linear in the tractions."""
         assert isinstance(state, SheetState)
         xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = self.per_traction
         p, above, below = state.pressure, state.shear, -state.shear_lower
@@ -104,7 +107,7 @@ class SheetMesh(Mesh):
         )
 
     def second_fields(self, state: ContactState) -> SecondFields:
-        """Return second-order displacements under a solution's tractions, as functions."""
+        """Return the second-order displacements under a solution's tractions as functions."""
         assert isinstance(state, SheetState)
         nodes, p = self.fine.nodes, self.acting(state.pressure)
         upper = replace(self.kernels, second_lower=None)
@@ -116,9 +119,9 @@ class SheetMesh(Mesh):
 
 
 def sheet_displacements(made: Array) -> Displacements:
-    """Return the displacements under a solution's tractions: (q_u, p) above and (-q_l, p) below.
+    """Return displacements under a solution's tractions: (q_u, p) above and (-q_l, p) below.
 
-    ``made``, (6, n, 3): those by p, q_u and q_l, for each function of `pair_displacements`.
+    ``made``, (6, n, 3): displacements by p, q_u and q_l, for each function of `pair_displacements`.
     """
     xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
     four = [
@@ -131,20 +134,21 @@ def sheet_displacements(made: Array) -> Displacements:
 
 
 def sheet_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> SheetMesh:
-    """Evaluate the influence functions of both surfaces on a mesh."""
+    """Return a mesh with the influence functions of both surfaces evaluated on it."""
     return SheetMesh.on(nodes, kernels, fine)
 
 
 @dataclass(frozen=True, slots=True)
 class Lagged:
-    """Terms that depend on the solution itself, taken from the last solution.
+    """Terms that depend on the solution, evaluated from the previous iterate.
 
     Attributes
     ----------
     clearance : (n,) added to the gap [mm].
     offsets : (2, n) added to the creep of the upper and the lower interface [mm].
-    traction : T_l that gives the wanted torque [N/mm]; None where no torque is wanted.
-    lean : line load that the shears take from the pressure [N/mm].
+    traction : prescribed T_l, or T_l that gives the prescribed torque [N/mm]; None for prescribed
+        creepage.
+    lean : part of the line load that is carried by the shears instead of the pressure [N/mm].
     """
 
     clearance: Array
@@ -155,21 +159,21 @@ class Lagged:
 
 @dataclass(frozen=True)
 class SheetProblem:
-    """The discrete problem on a mesh: everything that does not depend on the states.
+    """The discrete problem on a mesh, without the states of the nodes.
 
     Attributes
     ----------
-    nip, sheet, mesh : the problem and where it is solved.
+    nip, sheet, mesh : the physical problem and the mesh.
     frictions : coefficients of the upper and the lower interface.
-    arcs : ds/dx of the sheet's path on the intervals of the finer nodes.
+    arcs : ds/dx of the sheet's path on the intervals of the fine nodes.
     tension : (n, n) int_x^inf q ds at ``mesh.inner`` per nodal shear [mm].
     over : (n, n) integral of ``tension`` dx over each interval [mm^2].
     pulls : (n,) int q ds per nodal shear [mm].
     pressed : (n, n) int p dx over each interval per nodal pressure [mm].
-    own : (2, n) creep of each interval by the shear of its own node, without the tension that this
-        shear makes; negative [mm/MPa].
+    own : (2, n) creep of each interval due to the shear of its own node, without the tension that
+        this shear causes; negative [mm/MPa].
     matrix : (3 n, 3 n) of gap, upper and lower creep per p, q_u and q_l [mm/MPa].
-    has_path : whether the matrix has what the path of the sheet adds to the creeps.
+    has_path : whether the matrix includes the effect of the sheet's curved path on the creeps.
     """
 
     nip: Nip
@@ -191,8 +195,9 @@ class SheetProblem:
     ) -> SheetProblem:
         """Assemble the problem of a nip with a sheet on a mesh.
 
-        ``arcs`` None: all 1. ``has_path``: whether faces run as the path of the sheet bends, which
-        lies halfway between the surfaces; on a mesh that does not reach beyond the contact.
+        ``arcs`` None: all 1. ``has_path``: whether the faces' speeds follow from the curvature of
+        the sheet's path, which lies halfway between the surfaces; only on a mesh that ends at the
+        edges of the contact.
         """
         sheet = nip.sheet
         assert sheet is not None
@@ -235,16 +240,16 @@ class SheetProblem:
 
     @property
     def meshes(self) -> tuple[SheetMesh, SheetMesh]:
-        """Return the mesh of either interface, which is the same."""
+        """Return the mesh of each interface; both are the same."""
         return self.mesh, self.mesh
 
     @cached_property
     def path(self) -> SheetPath:
-        """The path of the sheet on this mesh."""
+        """Operator for the path of the sheet on this mesh."""
         return SheetPath.on(self.mesh)
 
     def right(self, lagged: Lagged) -> Array:
-        """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""
+        """Return the parts of gaps and creeps that do not depend on the unknowns, (3, n) [mm]."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         stretch = sheet.stretch_by_tension * pulled * self.dx
         gap = 0.5 * self.nip.curvature * self.mesh.inner**2 + lagged.clearance
@@ -257,13 +262,13 @@ class SheetProblem:
         return np.asarray(self.sheet.tension_in - pulled)
 
     def strain_over(self, state: SheetState) -> Array:
-        """Return int e dx of the sheet over each interval, (n,) [mm]."""
+        """Return int e dx over each interval, (n,) [mm]."""
         tension = self.sheet.tension_in * self.dx - self.over @ (state.shear - state.shear_lower)
         pressed = self.sheet.stretch_by_pressure * (self.pressed @ state.pressure)
         return np.asarray(self.sheet.stretch_by_tension * tension + pressed)
 
     def gap_and_creeps(self, state: SheetState, lagged: Lagged) -> Array:
-        """Return the gap at the nodes and the creep of both interfaces, (3, n) [mm]."""
+        """Return the gap at the nodes and both creeps over the intervals, (3, n) [mm]."""
         tractions = np.concatenate([state.pressure, state.shear, state.shear_lower])
         made = (self.matrix @ tractions).reshape(3, -1) + self.right(lagged)
         made[0] -= state.approach
@@ -272,12 +277,12 @@ class SheetProblem:
         return np.asarray(made)
 
     def creeps(self, state: SheetState, lagged: Lagged) -> tuple[Array, Array]:
-        """Return the creep of either interface over each interval, each (n,) [mm]."""
+        """Return the creep of each interface over each interval, each (n,) [mm]."""
         _, upper, lower = self.gap_and_creeps(state, lagged)
         return upper, lower
 
     def sheared(self, state: SheetState, side: int) -> Array:
-        """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+        """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         return np.asarray(-np.diff(self.tension @ state.shears[side]))
 
     def displacements(self, state: SheetState, _: int = 0) -> Displacements:

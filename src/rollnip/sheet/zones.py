@@ -1,4 +1,4 @@
-"""Zones of stick and slip on both interfaces of a sheet, which share the edges of the contact."""
+"""Zones of stick and slip on both interfaces of a membrane; they have the same edges."""
 
 from __future__ import annotations
 
@@ -14,17 +14,15 @@ from rollnip.sheet.system import SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
-_TOGETHER = (
-    5e-4  # over the width: transitions of both interfaces so near to each other share a node
-)
-_COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
-SLIVER = 1e-3  # over the width: zones that are left out
-LONGEST_MOVE = 0.04  # of an edge, over the width
-_OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
+_TOGETHER = 5e-4  # over the width: transitions of both interfaces this close share a node
+_COINCIDENT = 1e-8  # over the width: zone ends this close leave elements of no length
+SLIVER = 1e-3  # over the width: shorter zones are removed
+LONGEST_MOVE = 0.04  # of an edge per mesh, over the width
+_OF_TRANSITIONS = 10.0  # factor of the squared distance of transitions, compared to edges
 
 
 class LazyZones(Protocol):
-    """Zones that are worked out where they are asked for."""
+    """Zones that are computed on demand."""
 
     @property
     def sides(self) -> tuple[Layout, Layout]:
@@ -32,17 +30,17 @@ class LazyZones(Protocol):
         ...
 
     def creeps_back(self, number: int) -> NDArray[np.bool_]:
-        """Return beside which transitions of an interface slip is called to stick, (m,)."""
+        """Return at which transitions of an interface the slip beside it must stick again, (m,)."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class SideZones:
-    """The zones of the upper and of the lower interface, whatever edges they have.
+    """The zones of the upper and of the lower interface, each with any edges.
 
     Attributes
     ----------
-    upper, lower : zones of either interface.
+    upper, lower : zones of each interface.
     """
 
     upper: Layout
@@ -50,7 +48,7 @@ class SideZones:
 
     @classmethod
     def sticking(cls, reach: float) -> Self:
-        """Return one zone of stick on each interface, as far as ``reach`` on either side [mm]."""
+        """Return one stick zone on each interface, from -``reach`` to ``reach`` [mm]."""
         return cls(Layout.sticking(reach), Layout.sticking(reach))
 
     @property
@@ -65,11 +63,11 @@ class SideZones:
 
     @property
     def ends(self) -> Array:
-        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
+        """Return the zone ends of both interfaces, one after the other, (m,) [mm]."""
         return np.concatenate([side.breaks for side in self.sides])
 
     def with_ends(self, ends: Array) -> Self:
-        """Return the same zones between other breaks, in the order of ``ends``."""
+        """Return zones with the same states and other ends, in the order of ``ends``."""
         n = self.upper.breaks.size
         upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
         return type(self)(upper, lower)
@@ -82,7 +80,7 @@ class SideZones:
 
 @dataclass(frozen=True, slots=True)
 class Zones(SideZones):
-    """The zones of the upper and of the lower interface; both have the same edges."""
+    """The zones of the upper and of the lower interface of a membrane, with common edges."""
 
     @property
     def edges(self) -> tuple[float, float]:
@@ -91,20 +89,20 @@ class Zones(SideZones):
 
     @property
     def is_proper(self) -> bool:
-        """Return whether all breaks are finite and clearly apart, also those of both sides."""
+        """Return whether all zone ends are finite and clearly apart, also across interfaces."""
         apart = np.diff(self.breaks)
         return bool(np.all(apart > _COINCIDENT * self.width))
 
     @property
     def breaks(self) -> Array:
-        """Return the breaks of both interfaces together, each once, (m,) [mm]."""
+        """Return the zone ends of both interfaces merged, each once, (m,) [mm]."""
         places = {place for side in self.sides for place in side.breaks.tolist()}
         return np.array(sorted(places))
 
     def distance(self, other: Zones) -> float:
-        """Return how far apart the breaks of like zones are, over the width.
+        """Return the largest distance between the ends of like zones, over the width.
 
-        Figures depend on transitions to second order: ten times their squared distance counts.
+        Figures depend on transitions only to second order: ten times their squared distance counts.
         """
         moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
         edges = max(float(max(move[0], move[-1])) for move in moves)
@@ -117,7 +115,7 @@ class Zones(SideZones):
         return np.stack([side.states_on(x) for side in self.sides])
 
     def aligned(self) -> Zones:
-        """Return these zones with transitions that nearly coincide moved onto their mean."""
+        """Return zones whose nearly coincident transitions are both moved to their mean."""
         near = _TOGETHER * self.width
         places = [side.breaks.copy() for side in self.sides]
         for i in range(1, places[0].size - 1):
@@ -131,11 +129,12 @@ class Zones(SideZones):
     def moved(
         self, problem: SheetProblem, state: SheetState, called: LazyZones, *, is_near: bool
     ) -> Zones:
-        """Return the zones with their breaks moved to where a solution with them puts them.
+        """Return zones whose ends are moved to where a solution with these zones puts them.
 
-        ``called``: like zones, of the states that the solution calls for. They say where a
-        transition belongs whose nearest shears do not, or would move it beyond the middle of a
-        zone; and, where ends ``is_near`` their places, also where slip beside it creeps back.
+        ``called``: like zones from the nodal states that the solution calls for. They place a
+        transition where the shears beside it do not, or would move it beyond the middle of a zone;
+        and, where ``is_near`` says that ends are close to their places, also where the slip beside
+        it creeps back.
         """
         x = problem.mesh.inner
         proposed = [
@@ -174,9 +173,9 @@ class Zones(SideZones):
 
     @classmethod
     def around(cls, x: Array, state: SheetState, frictions: tuple[float, float]) -> Zones:
-        """Return the zones of nodal states on a mesh that reaches beyond the contact.
+        """Return the zones of nodal states on a mesh that extends beyond the contact.
 
-        One zone of stick where the contact or its zones are in pieces.
+        Where the contact or its zones are disconnected, one stick zone is returned.
         """
         whole = [
             contact_zones(x, state.side(number), friction)
@@ -197,7 +196,7 @@ class Zones(SideZones):
         frictions: tuple[float, float],
         edges: tuple[float, float],
     ) -> Zones | None:
-        """Return the zones of nodal states in a contact with known edges; None if unclear."""
+        """Return the zones of nodal states between known edges; None where they are unclear."""
         sides = [
             Layout.found(x, state.side(number), friction, edges)
             for number, friction in enumerate(frictions)
@@ -207,13 +206,13 @@ class Zones(SideZones):
 
 
 def held(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
-    """Return the wanted breaks, each transition held between the middles of its zones."""
+    """Return proposed zone ends, each transition limited to between the middles of its zones."""
     out = breaks.copy()
     middles = 0.5 * (breaks[1:] + breaks[:-1])
     wanted = np.where(np.isfinite(proposed), proposed, breaks)
     out[1:-1] = np.clip(wanted[1:-1], middles[:-1], middles[1:])
     out[0], out[-1] = edges
-    if not np.all(np.diff(out) > 0.0):  # an edge moved across a transition: keep the shares
+    if not np.all(np.diff(out) > 0.0):  # an edge moved past a transition: keep relative places
         share = (breaks - breaks[0]) / (breaks[-1] - breaks[0])
         out = edges[0] + share * (edges[1] - edges[0])
     return np.asarray(out)

@@ -1,9 +1,9 @@
-"""Finite strain of all orders with a sheet: the contact and both corrections, by iteration.
+"""Finite strain of all orders with a sheet: contact and finite-element corrections by iteration.
 
 As in a bare nip (`rollnip.rolling.beyond`), the displacements of a surface are the linear ones plus
-a correction that is held while a contact is solved. With a sheet each roller has tractions of its
-own: pressure and the shear of its interface. The correction of each follows from these alone, so
-that iterations are those of a bare nip, and the sheet is no part of them.
+a correction, which is held constant while a contact is solved. With a sheet each roller has its own
+tractions, the pressure and the shear of its interface, and its correction follows from these alone.
+The iteration is therefore that of a bare nip, and the sheet takes no part in it.
 """
 
 from __future__ import annotations
@@ -38,25 +38,25 @@ from rollnip.sheet.powers import smooth_works
 from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
 
 _MOST_RESTARTS = 10  # iterations that are solved from the beginning
-_COARSE = 20  # elements of the contact while its corrections still change
+_COARSE = 20  # number of elements while the corrections still change
 
 
 def solve_by_iteration(
     kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float
 ) -> tuple[PairKernels, Refined[S]] | None:
-    """Solve the contact with a sheet and evaluate both corrections by iteration.
+    """Solve the contact with a sheet together with the corrections of both rollers, by iteration.
 
-    First on a coarse mesh, from the linear displacements, until the changes to come are small. Then
-    the mesh is refined, and iterations go on until the contact conditions are met with the
-    corrections that belong to the solution itself. Only the first correction, under tractions that
-    are far off, may be a rough one: what it lacks would be met again on the finest mesh.
-
-    Where they do not settle, with fewer of the short waves.
+    The iteration starts on a coarse mesh, from the linear displacements, until the remaining
+    changes are small. Then the mesh is refined, and the iteration continues until the contact
+    conditions are met with the corrections that follow from the solution itself. Only the first
+    correction, under tractions that are far off, may be evaluated roughly: an error of a later one
+    would reappear on the finest mesh. Where the iteration does not converge, it is repeated with
+    fewer of the short waves.
 
     Returns
     -------
     The influence functions with the last corrections and the solution with them; None where there
-    is no equilibrium, or zones or corrections do not settle.
+    is no equilibrium, or zones or corrections do not converge.
     """
     if skin_thickness(kind.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -76,7 +76,7 @@ def solve_by_iteration(
 
 
 def _begun(kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float) -> S:
-    """Return a solution of a coarse contact, from no other one."""
+    """Return a first solution on a coarse mesh, without a previous one."""
     search = kind.search(model, kernels)
     count = round(elements_to_begin_with(kind, half_width, _COARSE))
     attempt = search.begun(half_width, count)
@@ -89,10 +89,9 @@ class _Contact(Generic[S]):
 
     Attributes
     ----------
-    kind, model : what solves it, and how accurately once it is refined.
-    attempt : the last solution.
-    refined : the refined one; None: the mesh is coarse still.
-    restarts : how often it was restarted.
+    kind, model : formulation of the sheet, and the model with the tolerance of the refined
+    solution. attempt : the last solution. refined : the refined solution; None while the mesh is
+    coarse. restarts : how often the search was restarted.
     """
 
     kind: SheetKind[S]
@@ -102,9 +101,10 @@ class _Contact(Generic[S]):
     restarts: int = 0
 
     def solve(self, kernels: PairKernels, *, refine: bool) -> None:
-        """Solve with other corrections, from the last solution.
+        """Solve with other corrections, starting from the last solution.
 
-        Where zones do not settle, from none. ``refine``: on finer and finer meshes.
+        Where its zones do not converge, the search is restarted. ``refine``: on finer and finer
+        meshes.
         """
         found = self.kind.holding(self.attempt, kernels)
         if refine:
@@ -134,7 +134,7 @@ class _Contact(Generic[S]):
 def _iterate_until_settled(
     kernels: PairKernels, contact: _Contact[S], orders: AllOrders
 ) -> tuple[PairKernels, Refined[S]] | None:
-    """Iterate, see `solve_by_iteration`."""
+    """Iterate corrections and contact; see `solve_by_iteration`."""
     kind, tolerance, change = contact.kind, contact.model.tolerance, inf
     past = Past(even_places(_edges(contact.attempt)))
     least = Least[tuple[PairKernels, Refined[S], S]]()
@@ -168,7 +168,7 @@ def _iterate_until_settled(
 
 
 def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
-    """Return a refined solution with what the correction leaves out."""
+    """Return a refined solution with the residual ``cut`` due to what the correction leaves out."""
     figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.attempt)
     losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
     return replace(refined, cut=cut, cut_losses=losses)
@@ -184,13 +184,13 @@ def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
 
 
 def _edges(attempt: AnyAttempt) -> tuple[float, float]:
-    """Return the ends of both contacts together [mm]."""
+    """Return the outer edges of both contacts [mm]."""
     starts, stops = zip(*(side.edges for side in attempt.zones.sides), strict=True)
     return min(starts), max(stops)
 
 
 def _largest_strain(attempt: AnyAttempt) -> float:
-    """Return the largest strain of either surface in its contact, mean over an element."""
+    """Return the largest surface strain in either contact, averaged over an element."""
     problem, state, most = attempt.problem, attempt.state, 0.0
     for side, mesh in enumerate(problem.meshes):
         x, u = mesh.fine.nodes[1:], mesh.finer(problem.displacements(state, side))

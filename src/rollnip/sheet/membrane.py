@@ -1,4 +1,4 @@
-"""A sheet that bends freely, as a kind of sheet."""
+"""The formulation of a sheet without bending stiffness: a membrane."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Membrane:
-    """A nip with a sheet that bends freely: both interfaces have one contact and one pressure."""
+    """A nip with a membrane: both interfaces share one contact and one pressure."""
 
     nip: Nip
 
@@ -34,11 +34,11 @@ class Membrane:
 
     @property
     def bending_length(self) -> float:
-        """Length over which the sheet bends: it bends freely."""
+        """Length over which bending stiffness acts: infinite, for there is none."""
         return inf
 
     def peaks_allowed(self, model: Model) -> tuple[float]:
-        """Return the relative error that is allowed of the highest pressure."""
+        """Return the allowed relative error of the peak pressure."""
         return (model.tolerance,)
 
     def figures(self, attempt: SheetAttempt, geometry: Geometry) -> tuple[SheetFigures]:
@@ -59,7 +59,7 @@ class Membrane:
         )
 
     def pulls(self, attempt: SheetAttempt, geometry: Geometry) -> Pulls:
-        """Return int q lambda ds of either roller [N/mm]."""
+        """Return int q lambda ds of both rollers [N/mm]."""
         problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
         u = mesh.displacements(state)
         whole = smooth = pulls_of(problem, geometry, state, mesh.uncut(u))
@@ -68,18 +68,18 @@ class Membrane:
         return tuple(zip(whole, smooth, strict=True))
 
     def overlap(self, attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-        """Return how far surfaces and sheet overlap outside the contact, and tension, relative."""
+        """Return the relative overlap outside the contact, or the relative tension in it."""
         return overlap(attempt, kernels, geometry)
 
     def holding(self, attempt: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
-        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         problem = replace(attempt.problem, mesh=attempt.problem.mesh.holding(kernels))
         lagged = lagged_terms(problem, "finite", attempt.state)
         change = change_of(lagged, attempt.lagged, problem, attempt.state)
         return replace(attempt, problem=problem, lagged=lagged, change=change)
 
     def missed(self, attempt: SheetAttempt, other: SheetAttempt) -> float:
-        """Return how badly a solution violates its conditions with the terms of the other one."""
+        """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
 
@@ -91,18 +91,18 @@ def strain_at(attempt: SheetAttempt) -> Array:
 
 
 def _largest_of(mesh: SheetMesh, values: Array) -> float:
-    """Return the largest of values at ``mesh.inner``, between nodes too.
+    """Return the maximum over x of values at ``mesh.inner``, also between nodes.
 
-    At an edge strains turn as the root of the pressure does, which is smooth in the number of the
-    node, as tractions are, and not in x.
+    Near an edge strains, as tractions, vary as the square root of the distance. They are smooth
+    functions of the node number but not of x.
     """
     return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
 
 
 def _into_sheet(attempt: SheetAttempt, geometry: Geometry) -> float:
-    """Return the power of the shears on the faces of the sheet over V [N/mm].
+    """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
-    Its faces run at V_s (1 + e -+ h kappa/2). "linear" leaves out products of creepage and strain.
+    The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
     """
     problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
     above, below = problem.sheared(state, 0), problem.sheared(state, 1)
@@ -118,10 +118,10 @@ def _into_sheet(attempt: SheetAttempt, geometry: Geometry) -> float:
 
 
 def traction_slope(attempt: SheetAttempt) -> float:
-    """Return how fast both tractions grow with the creepage, where the same nodes stick [N/mm].
+    """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
 
-    An error of the creepage at a given traction is one of the traction at a given creepage, as
-    without a sheet.
+    It turns an error of the creepage at a given traction into one of the traction at a given
+    creepage, as without a sheet.
     """
     tractions = []
     for creepage in (0.0, 1.0):  # the tractions are linear in it

@@ -1,8 +1,9 @@
-"""The search for the zones of both interfaces and their ends, on meshes of one size.
+"""Search for the zones of a membrane: states and ends of stick and slip, on meshes of one size.
 
-Edges and transitions lie at nodes, and the tractions at the first nodes beside them say where they
-move (`contact.Layout.moved`), which is Newton's method. Once the ends are about right, a solution
-tells whether its zones are right too; where they are not, stick and slip are sought node by node.
+Edges and transitions lie at nodes. The tractions at the first nodes beside them show where they
+belong (`contact.Layout.moved`), which makes the search Newton's method for the zone ends. Once the
+ends are approximately right, the solution also shows whether its zones have the right states;
+where they do not, stick and slip are determined node by node.
 """
 
 from __future__ import annotations
@@ -53,27 +54,27 @@ from rollnip.sheet.zones import Zones
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so every zone is refined from size to size
-_SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
-_FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
-_NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
+_LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so that every zone is refined with the size
+_SLACK = 1e-3  # relative excess of the shear over its bound that counts as rounding
+_FAIRLY_PLACED = 0.1  # end error over the width, small enough to judge the states
+_NEARLY_PLACED = 0.01  # end error over the width, small enough for secant steps
 _MOST_MESHES = 14
-_MOST_CHANGES = 5  # of zones, on meshes of one size
-_REACH = 1.12  # half of the first mesh over the half-width of the rollers alone
-_WIDER = 1.5  # times the reach, where the contact does not fit in
+_MOST_CHANGES = 5  # of the zones' states, on meshes of one size
+_REACH = 1.12  # half-length of the first mesh over the half-width of the rollers alone
+_WIDER = 1.5  # growth of the first mesh where the contact does not fit into it
 _MOST_REACHES = 4
 _MOST_ITERATIONS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
-SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
+SHORTEST_LAYER = 1e-3  # over the width: shortest boundary layer for which nodes crowd
 
 
 SheetAttempt = Attempt[Zones, SheetProblem, SheetState, Lagged]
-"""A solution between the ends of the zones of a sheet that bends freely."""
+"""The iterate of the search for a membrane."""
 
 
 @dataclass(frozen=True)
 class SheetSearch:
-    """The search for the zones of a nip with a sheet, for one model."""
+    """The search for the zones of a nip with a membrane, for one model."""
 
     nip: Nip
     model: Model
@@ -81,9 +82,9 @@ class SheetSearch:
     moves: Moves[Zones] = field(default_factory=Moves)
 
     def begun(self, half_width: float, count: int) -> SheetAttempt:
-        """Find zones on a mesh that reaches beyond the contact, in the linear geometry.
+        """Return a first solution in linear geometry, on a mesh that extends beyond the contact.
 
-        ``half_width``: about that of the nip [mm]; ``count``: elements.
+        ``half_width``: approximate half-width of the nip [mm]; ``count``: number of elements.
         """
         reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
         for _ in range(_MOST_REACHES):
@@ -102,15 +103,15 @@ class SheetSearch:
     def placed(
         self, zones: Zones, count: int, before: SheetAttempt, closely: float
     ) -> SheetAttempt:
-        """Find the solution on a mesh of some size with nodes at the ends of its zones.
+        """Return the solution on a mesh of one size with nodes at the ends of its zones.
 
-        ``closely``: allowed error of an end, of the tolerance times the width.
+        ``closely``: allowed error of a zone end, over the tolerance times the width.
         """
         placed = closely * self.model.tolerance
         steps, misplacement = before.steps, before.misplacement
         changes = 0
         known = min(misplacement, 1.0)
-        # Ends count as near on the first mesh, whose terms are those of a solution.
+        # On the first mesh ends count as near, because its lagged terms come from a solution.
         near = min(misplacement, _NEARLY_PLACED)
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
@@ -137,8 +138,8 @@ class SheetSearch:
             near = known = min(known, misplacement)
             is_met = violation(attempt) <= self._slack
             stay = misplacement > _FAIRLY_PLACED and not changes
-            # With a violation zones are doubted at once where nodes call for zones unlike them;
-            # without one, as soon as no end moves, and once.
+            # If conditions are violated and the nodal states call for unlike zones, the states
+            # are checked at once; without violation only when no end moves any more, and once.
             moves = misplacement > placed
             if is_met:
                 stay = stay or moves or changes > 0 or called.are_like
@@ -161,14 +162,14 @@ class SheetSearch:
         return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
-        """Return how nodes crowd at ends that are known to some share of the width."""
+        """Return the crowding of nodes at zone ends, ``known`` to this fraction of the width."""
         width, rollers = float(breaks[-1] - breaks[0]), (self.nip.upper, self.nip.lower)
         shortest = min(self.boundary, unlike_layer(rollers, self.model.tolerance) * width)
         return crowding_of(breaks, max(shortest, max(known, SHORTEST_LAYER) * width))
 
     @cached_property
     def boundary(self) -> float:
-        """Length of the shortest boundary layer at the ends of zones [mm]."""
+        """Length of the shortest boundary layer at zone ends [mm]."""
         return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
 
     def _problem(
@@ -177,7 +178,7 @@ class SheetSearch:
         shape: tuple[NDArray[np.intp], tuple[float, ...]],
         before: SheetAttempt | None,
     ) -> SheetProblem:
-        """Assemble the problem on a mesh with nodes at the ends of zones."""
+        """Assemble the problem on a mesh with nodes at the zone ends."""
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._holding(before)
         mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
@@ -185,7 +186,7 @@ class SheetSearch:
         return SheetProblem.on(self.nip, mesh, self._arcs(mesh, before), has_path=bends)
 
     def _arcs(self, mesh: SheetMesh, before: SheetAttempt | None) -> Array | None:
-        """Return ds/dx of the sheet's path in the solution before; None: all 1."""
+        """Return ds/dx of the sheet's path in the previous solution; None: all 1."""
         if before is None or self.model.geometry not in FINITE:
             return None
         own = before.problem.mesh
@@ -195,7 +196,7 @@ class SheetSearch:
         return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
 
     def _holding(self, before: SheetAttempt | None) -> PairKernels:
-        """Return influence functions with the second order of the solution before, if they have."""
+        """Return influence functions with second-order terms of the previous solution, if any."""
         if self.kernels.is_fixed:
             return self.kernels
         held = NO_SECOND_ORDER
@@ -211,10 +212,10 @@ class SheetSearch:
         steps: int,
         misplacement: tuple[float, float],
     ) -> SheetAttempt:
-        """Solve on one mesh with given zones, in iterations of the lagged terms.
+        """Solve on one mesh with given zones, iterating the lagged terms.
 
-        ``misplacement``: how far ends were off, the least and on the last mesh of this size. Ends
-        that are far off leave singular tractions, under which new terms mean nothing.
+        ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
+        Ends that are far off leave singular tractions, for which updated terms are meaningless.
         """
         system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
@@ -242,7 +243,7 @@ class SheetSearch:
         return min(self.model.tolerance, _SLACK)
 
     def _other(self, attempt: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
-        """Find other zones between known edges, node by node; None where there are none."""
+        """Return other zones between known edges, found node by node; None where there are none."""
         problem = attempt.problem
         state = slipping(problem, attempt.state, attempt.lagged, self._slack)
         if state is None:
@@ -255,7 +256,7 @@ class SheetSearch:
 
 @dataclass(frozen=True)
 class _ZonesCalledFor:
-    """Zones that a solution calls for by the states of its nodes, worked out when asked for.
+    """Zones that follow from the nodal states a solution calls for, computed on demand.
 
     Attributes
     ----------
@@ -273,7 +274,7 @@ class _ZonesCalledFor:
 
     @cached_property
     def _found(self) -> Zones | None:
-        """Return their zones, if these are like those of the solution."""
+        """Return the zones of these states, if they are like those of the solution."""
         attempt, wanted = self.attempt, self._wanted
         state = replace(attempt.state, states=wanted[0], states_lower=wanted[1])
         frictions, x = attempt.problem.frictions, attempt.problem.mesh.inner
@@ -283,15 +284,15 @@ class _ZonesCalledFor:
 
     @cached_property
     def are_like(self) -> bool:
-        """Return whether they make zones like those of the solution."""
+        """Return whether the states make zones like those of the solution."""
         same = np.array_equal(self._wanted, self.attempt.state.both_states)
         return same or self._found is not None
 
     def creeps_back(self, number: int) -> Mask:
-        """Return beside which transitions of an interface slip is called to stick, (m,).
+        """Return at which transitions of an interface the slip beside it must stick again, (m,).
 
-        That is where it creeps against its own shear, at the node of the transition and at the next
-        one: the shear comes to its bound there as at the end of a zone, but not for the first time.
+        There the surfaces creep against their own shear, at the node of the transition and at the
+        next one: the shear reaches its bound as at the end of a zone, but not for the first time.
         """
         side = self.attempt.zones.sides[number]
         ends = side.ends(self.attempt.problem.mesh.inner)[1:-1]
@@ -301,12 +302,12 @@ class _ZonesCalledFor:
 
     @property
     def sides(self) -> tuple[Layout, Layout]:
-        """Return the zones of both interfaces that they make; its own where these are others."""
+        """Return the resulting zones of both interfaces; if unlike, those of the solution."""
         return (self._found or self.attempt.zones).sides
 
 
 def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-    """Return how far surfaces and sheet overlap outside the contact, and tension, relative."""
+    """Return the relative overlap outside the contact, or the relative tension in it."""
     problem, state = attempt.problem, attempt.state
     nip, mesh, width = problem.nip, problem.mesh, attempt.zones.width
     away = width * OUTSIDE
@@ -323,7 +324,7 @@ def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> 
 
 
 def carried(attempt: SheetAttempt, problem: SheetProblem) -> Lagged:
-    """Return the lagged terms of a solution on another mesh."""
+    """Return the lagged terms of a solution, interpolated to another mesh."""
     old, new, lagged = attempt.problem.mesh, problem.mesh, attempt.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
     offsets = [new.dx * np.interp(places, middles, row / old.dx) for row in lagged.offsets]

@@ -1,4 +1,4 @@
-"""The result of a nip with a sheet: what `Solution` says, with two interfaces."""
+"""The solution of a nip with a sheet, as `Solution` but with two interfaces."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ Array = NDArray[np.float64]
 class SheetSolution(SmoothSolution):
     """A solved nip with a sheet.
 
-    Everything that `Solution` says, with these differences: ``creepage`` is the difference of the
-    rollers' speeds, ``traction`` what the lower roller takes (T_l); ``shear``, ``zones`` and the
-    slip velocity are those of the upper interface, ``gap`` is the gap less the sheet.
+    It offers what `Solution` does, with these differences: ``creepage`` is the difference of the
+    rollers' speeds, ``traction`` is that on the lower roller (T_l); ``shear``, ``zones`` and the
+    slip velocity are those of the upper interface, and ``gap`` is the gap less the sheet.
 
     Attributes
     ----------
@@ -72,19 +72,19 @@ class SheetSolution(SmoothSolution):
 
     @property
     def traction(self) -> float:
-        """Traction T_l [N/mm], what the lower roller takes; T_u is ``sheet.traction_upper``."""
+        """Traction T_l on the lower roller [N/mm]; T_u is ``sheet.traction_upper``."""
         return self._figure("traction_lower")
 
     @property
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]."""
+        """Place of the peak pressure [mm]."""
         return self._figure("peak_pressure_x")
 
     @property
     def power_in(self) -> float | None:
         """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
 
-        It is the loss by friction, the viscous loss and what the sheet takes.
+        It is the sum of the friction loss, the viscous loss and the power into the sheet.
         """
         if self.nip.speed is None:
             return None
@@ -141,13 +141,13 @@ class SheetSolution(SmoothSolution):
 
     @property
     def _gap(self) -> Array:
-        """Gap of the surfaces less the sheet, negative where they are pressed into it [mm]."""
+        """Gap between the surfaces less the sheet, negative where they are pressed into it [mm]."""
         surfaces = self.deformed_surfaces
         return surfaces.upper - surfaces.lower + self._thinned(surfaces.x)
 
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
+        """Heights of both surfaces; the sheet between them is taken without its thickness."""
         x, u = self._points
         upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
         return DeformedSurfaces(x, upper - self.final.state.approach, -lower)
@@ -200,12 +200,12 @@ class SheetSolution(SmoothSolution):
 
     @property
     def bends(self) -> bool:
-        """Whether the sheet's stiffness against bending is counted."""
+        """Whether the sheet's bending stiffness is included."""
         return False
 
     @property
     def on_lower_side(self) -> tuple[float, float]:
-        """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
+        """Width of the lower interface [mm], and the peak pressure on it [MPa]."""
         figures = self.refined.lower
         return figures.nip_width, figures.peak_pressure
 
@@ -216,7 +216,7 @@ class SheetSolution(SmoothSolution):
         return mine["nip_width"], mine["peak_pressure"]
 
     def sheet_errors(self) -> dict[str, float]:
-        """Return the errors of the figures of the sheet, by their names."""
+        """Return the errors of the figures of the sheet by name."""
         mine, state, half = self._errors, self._state, 0.5 * self.creepage
         speed = nan if self.nip.speed is None else self.nip.speed
         names = ("creepage_upper", "creepage_lower", "traction_upper", "traction_lower")
@@ -233,7 +233,7 @@ class SheetSolution(SmoothSolution):
 
     @cached_property
     def _errors(self) -> dict[str, float]:
-        """Errors of all figures of the refinement, none less than the model's own."""
+        """Errors of all figures of the refinement, at least those of the model itself."""
         figures = self.refined.figures
         mine = self._claimed(figures, self.refined.errors)
         if isinstance(self.nip.tangential, Creepage) and self.model.geometry in FINITE:
@@ -252,11 +252,11 @@ class SheetSolution(SmoothSolution):
         return mine
 
     def _traction_slope(self) -> float:
-        """Return how fast both tractions grow with the creepage, see `traction_slope` [N/mm]."""
+        """Return the derivative of both tractions by the creepage, see `traction_slope` [N/mm]."""
         return traction_slope(self.refined.attempt)
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
-        """Return errors by name, none less than what the model's own order leaves uncertain."""
+        """Return errors by name, at least the uncertainty that the model's own order leaves."""
         shares = shares_of_model(self.model.geometry, self.bends)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
@@ -270,8 +270,8 @@ class SheetSolution(SmoothSolution):
         if self.model.geometry not in FINITE:
             return out
         for number, (side, loss) in enumerate(zip(SIDES, self.refined.cut_losses, strict=True)):
-            # What slips is faster by the creepage's error, under shears that may cancel in the
-            # traction, which passes on the power of that error, too.
+            # An error of the creepage changes the slip velocity, and so the power of the shears
+            # in slip, which may cancel in the traction.
             pull = max(
                 abs(getattr(figures, f"traction_{side}")), pull_in_slip(self._of_side(number))
             )
@@ -304,13 +304,13 @@ class SheetSolution(SmoothSolution):
         return self._spent.as_bare
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q_u, p) above and (-q_l, p) below."""
+        """Return the tractions on one surface in its own frame: (q_u, p) above, (-q_l, p) below."""
         mesh, state = self.refined.attempt.problem.mesh, self._state
         shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
     def _of_side(self, side: int) -> Round:
-        """Return the last round as that of one interface."""
+        """Return the last round in the form of one interface."""
         return replace(self.final, state=self._state.side(side))
 
     def _at(self, x: Array, traction: Array) -> Array:
@@ -333,14 +333,14 @@ class SheetSolution(SmoothSolution):
         return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
 
     def _strain_of_sheet(self, x: Array) -> Array:
-        """Return how far the sheet is stretched by its tension and the pressure on it."""
+        """Return the strain of the sheet due to its tension and the pressure on it."""
         sheet = self.nip.sheet
         assert sheet is not None
         pressure = self._at(x, self.final.pressure)
         return sheet.stretch_by_tension * self._tension(x) + sheet.stretch_by_pressure * pressure
 
     def _thinned(self, x: Array) -> Array:
-        """Return by how much the sheet is thinner than without load [mm]."""
+        """Return the loss of the sheet's thickness under load [mm]."""
         sheet = self.nip.sheet
         assert sheet is not None
         acting = self.refined.attempt.problem.mesh.acting(self._state.pressure)
@@ -362,7 +362,7 @@ class SheetSolution(SmoothSolution):
         return x, u + held.at(x)
 
     def _sliding(self) -> tuple[Array, Array]:
-        """Return creeps over length, see `grip.first_to_slide`."""
+        """Return creeps per length in full sliding, see `grip.first_to_slide`."""
         attempt, state = self.refined.attempt, self._state
         mu_u, mu_l = frictions_of(self.nip)
         above, below = mu_u * state.pressure, -mu_l * state.pressure
@@ -372,7 +372,7 @@ class SheetSolution(SmoothSolution):
         return upper / length, lower / length
 
     def _slip(self, side: int) -> Array | None:
-        """Return the slip velocity of the upper surface of an interface over the lower one."""
+        """Return the slip velocity of the upper relative to the lower surface of an interface."""
         speed = self.nip.speed
         if speed is None:
             return None

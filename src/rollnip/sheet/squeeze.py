@@ -1,40 +1,41 @@
-r"""How the thickness of a sheet gives way to the pressure on its faces.
+"""Local deformation of a sheet across its thickness, under pressures and shears on its faces.
 
-The sheet is an elastic layer of modulus E_z between equal pressures on both faces. Its thickness
-changes by h (1 - nu^2)/E_z times the pressure where that changes slowly, and by less where it
-changes over lengths of about h, for then the neighbours carry with it. By wave number k the share
-of the springs' compliance is, with y = kh,
+Under equal pressures on both faces, an elastic layer of modulus E_z becomes thinner by
+c = h (1 - nu^2)/E_z times the pressure where the pressure varies slowly, as a layer of springs
+does. Where it varies over lengths of about h the change is smaller, because neighbouring material
+helps to carry the load. At wave number k, with y = kh, the compliance over that of the springs is
 
     f(y) = (4/y) (cosh y - 1)/(sinh y + y),
 
-1 for long waves and 4/y, that of two half-spaces, for short ones (Sneddon, Fourier Transforms,
-1951, section 45, for a layer of half the thickness on a smooth rigid base). Springs alone would
-make the pressure rise in proportion to the distance from the edge of the contact, over a length
-h E_rubber/E_z far below the thickness, where they no longer apply.
+which is 1 for long waves and 4/y, that of two half-spaces, for short ones (Sneddon, Fourier
+Transforms, 1951, section 45, for a layer of half the thickness on a smooth rigid base). Springs
+alone would make the pressure rise in proportion to the distance from the edge of the contact, over
+a length h E_rubber/E_z far below the thickness, where they no longer apply.
 
-In space the share is 1/h times a function of x/h, whose double integral is |x|/2 plus h times the
-function `_spread` of t = |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
-Close to 0 this would take all roots. There f is 4/y, but for what falls as exp(-y), and so the
-function is
+In space, f is 1/h times a function of x/h. The double integral of that kernel is |x|/2 plus h times
+the function `_spread` of t = |x|/h, which is a sum over the roots of sinh y = -y in the first
+quadrant. Near t = 0 all roots would be needed. There f is 4/y, except for terms that fall as
+exp(-y), so that `_spread` is
 
     (3 t^2 - 2 t^2 log t)/pi - t/2
 
-and a power series in t^2.
+plus a power series in t^2.
 
-Pressures that differ on the two faces also bend the layer: half of the difference moves both faces
-the same way, by the share (4/y) (cosh y + 1)/(sinh y - y) of c. All but its first two terms,
-48/y^4 + 9.6/y^2, which are those of a plate, is local too: 81/175 for long waves, 4/y for short
-ones. Its spread is a sum over the roots of sinh y = y; close to 0 the line has the slope 81/350,
-and the two terms left to the plate take 0.2 t^5 - 0.8 t^3 off the rest.
+Pressures that differ between the two faces also bend the layer: half of their difference moves both
+faces in the same direction, with the compliance (4/y) (cosh y + 1)/(sinh y - y) times c. Its first
+two terms, 48/y^4 + 9.6/y^2, are those of a plate. The rest is local as well: 81/175 for long waves,
+4/y for short ones. Its `_spread` is a sum over the roots of sinh y = y. Near t = 0 its linear term
+has the slope 81/350, and removing the two plate terms adds 0.8 t^3 - 0.2 t^5.
 
-Shears move a face along by h (1 - nu^2)/E times
+Shears displace a face tangentially by h (1 - nu^2)/E times
 
     (2/y) (cosh y + 1)/(sinh y + y) - 2/y^2,     (2/y) (cosh y - 1)/(sinh y - y) - 6/y^2,
 
-per half of the difference and half of the sum of the shears on both rollers, beside what the
-tension that they make and the bending by their couples do (2/y^2 and 6/y^2): 1/3 and 1/5 for long
-waves, 2/y for short ones. Their spreads are sums over the same roots; close to 0 they are half of
-the one above, with lines of half these slopes, and t^3/6 and t^3/2.
+per half of the difference and per half of the sum of the shears on both rollers. The terms 2/y^2
+and 6/y^2, which are the stretch by the resulting tension and the bending by the couples of the
+shears, are subtracted here. The rest is 1/3 and 1/5 for long waves, 2/y for short ones. The
+corresponding functions are sums over the same roots. Near t = 0 they are half of the expression
+above, with linear terms of half these slopes, plus t^3/6 and t^3/2.
 """
 
 from __future__ import annotations
@@ -49,13 +50,13 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-FAR = 9.0  # over the thickness: there `_spread` is 1e-17, it falls as exp(-4.2 distance)
-PLACES = 400  # of the table, crowded at 0
+FAR = 9.0  # over the thickness: there `_spread` is 1e-17; it falls as exp(-4.2 distance)
+PLACES = 400  # number of places in the table, denser near 0
 _ROOTS = 1000
-_SUMMED = 0.01, 0.2  # over the thickness: so many roots are enough there, and a series still is
-_OF_SERIES = 6  # its terms
-_AT_ONCE = 64  # nodes: what these need stays in a fast memory
-# Long waves, over c: of forces that do not bend the layer, and beside those of a plate of others.
+_SUMMED = 0.01, 0.2  # over the thickness: roots suffice above the first, a series below the second
+_OF_SERIES = 6  # number of its terms
+_AT_ONCE = 64  # nodes per block, whose arrays stay in the processor's cache
+# Long-wave limits over c: of loads that do not bend the layer, and of the others beyond a plate.
 _PRESSED, _SHEARED = (1.0, 81.0 / 175.0), (1.0 / 3.0, 1.0 / 5.0)
 _Shares = tuple[float, float]
 
@@ -68,18 +69,18 @@ def squeezed(
     shares: _Shares = (1.0, 0.0),
     opposite: NDArray[np.bool_] | None = None,
 ) -> Array:
-    """Return by how much pressures make the sheet thinner at some places, (m, s) [mm].
+    """Return the loss of thickness due to pressures, at given places, (m, s) [mm].
 
     Parameters
     ----------
     sheet : the sheet.
     x : (m,) places [mm].
-    nodes : (N + 1,) between which pressures are straight lines, 0 at both ends [mm].
+    nodes : (N + 1,) between which the pressures are linear; they are 0 at both ends [mm].
     tractions : (N - 1, s) sets of pressures at nodes[1:-1] [MPa].
     shares :
-        of the loss of thickness under equal pressures on both faces, and of how far both faces move
-        against opposite pressures beside what a plate moves.
-    opposite : (m,) whether the latter counts with the other sign at a place; None: nowhere.
+        weights of the loss of thickness under equal pressures on both faces, and of the
+        displacement of both faces under opposite pressures in excess of that of a plate.
+    opposite : (m,) whether the latter counts with the opposite sign at a place; None: nowhere.
     """
     made = _moved(sheet.thickness, x, nodes, tractions, (_PRESSED, shares), opposite)
     return np.asarray(sheet.squeeze * made)
@@ -88,10 +89,10 @@ def squeezed(
 def sheared(
     sheet: Sheet, x: Array, nodes: Array, tractions: Array, opposite: NDArray[np.bool_]
 ) -> Array:
-    """Return by how much shears move the faces of the sheet at some places, (m, s) [mm].
+    """Return the tangential displacement of the sheet's faces due to shears, (m, s) [mm].
 
-    It is what the sheet's tension and bending leave out, and counts as shears on that roller count
-    that lies on the face.
+    It excludes the displacement due to the sheet's tension and bending, and has the sign of the
+    shear on the roller at that face.
 
     Parameters
     ----------
@@ -111,7 +112,7 @@ def _moved(
     kind: tuple[_Shares, _Shares],
     opposite: NDArray[np.bool_] | None,
 ) -> Array:
-    """Return the same over c; ``kind``: what long waves have, and the shares."""
+    """Return the displacement over c; ``kind``: long-wave limits, and weights of both parts."""
     long, shares = kind
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
@@ -122,7 +123,7 @@ def _moved(
     if opposite is not None:
         cubic = np.concatenate([cubic, _table((shares[0], -shares[1]), long)], axis=1)
     starts = np.where(signs > 0.0, 0, PLACES - 1)
-    # A straight line turns at its nodes: each turn acts by the double integral, as far as that is.
+    # Each change of slope at a node acts by the double integral of the kernel.
     slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
     np.subtract(padded[1:], padded[:-1], out=slopes[1:-1])
     slopes[1:-1] *= (thickness / np.diff(nodes))[:, None]
@@ -139,23 +140,26 @@ def add_spread(
     *,
     is_odd: bool = False,
 ) -> None:
-    """Add what the turns of straight lines at their nodes make near by, in place.
+    """Add the local part of the response to piecewise-linear tractions, in place.
+
+    A piecewise-linear traction is a sum of changes of slope at its nodes; each contributes the
+    double integral of the kernel, which is negligible beyond `FAR` times the thickness.
 
     Parameters
     ----------
-    made : (m, s) to add to.
+    made : (m, s) to which the response is added.
     thickness : of the sheet [mm].
     places : (m,) places and (N + 1,) nodes [mm].
     turns : (N + 1, s) changes of slope at the nodes.
-    table : cubics, and where that of each place starts; see `_spread`.
-    is_odd : whether a spread has the other sign ahead of its node than behind it, where it adds.
+    table : cubic pieces, and the first piece for each place; see `_spread`.
+    is_odd : whether the kernel is odd: negative ahead of its node, positive behind it.
     """
     (x, nodes), (cubic, starts), far = places, table, FAR * thickness
     for start in range(0, nodes.size, _AT_ONCE):
         some = slice(start, start + _AT_ONCE)
         ends = nodes[some]
         near = np.flatnonzero((x > ends[0] - far) & (x < ends[-1] + far))
-        sets = np.flatnonzero(turns[some].any(axis=0))  # of a few neighbours each, as a rule
+        sets = np.flatnonzero(turns[some].any(axis=0))  # usually only a few sets per block
         if near.size and sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
             away = (x[near, None] - ends) / thickness
@@ -166,7 +170,7 @@ def add_spread(
 
 
 def _straight(x: Array, nodes: Array, values: Array) -> Array:
-    """Return the values at ``x`` of straight lines between nodes, 0 beyond them."""
+    """Return the values at ``x`` of a piecewise-linear function of the nodes, 0 outside."""
     at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     share = (x - nodes[at]) / (nodes[at + 1] - nodes[at])
     share[(share < 0.0) | (share > 1.0)] = 0.0  # values are 0 at both ends
@@ -176,10 +180,13 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
 
 
 def _spread(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
-    """Return the double integral of the shares in space, less half of the distance, over h.
+    """Return the double integral of the kernel less half of the distance, over h.
 
-    ``away``: distances over h; beyond `FAR` it is 0. ``cubic``, ``starts``: see `_table`, one
-    after the other, and where that of each place starts.
+    Parameters
+    ----------
+    away : distances over h; beyond `FAR` the result is 0.
+    cubic : cubic pieces, see `_table`; several tables may be concatenated.
+    starts : index of the first piece of the table for each place.
     """
     place = np.cbrt(np.minimum(away, FAR) / FAR)
     place *= PLACES - 1
@@ -209,7 +216,7 @@ def _table(shares: _Shares, long: _Shares) -> Array:
 
 
 def _alone(sign: float, long: _Shares, away: Array) -> Array:
-    """Return the spread of one share at distances over h; ``sign``: of the pressures' likeness."""
+    """Return `_spread` of one mode at distances over h; ``sign``: 1 for equal, -1 for opposite."""
     first, last = _SUMMED
     places = np.sqrt(np.linspace(first**2, last**2, _OF_SERIES))
     smooth = _summed(sign, long, places) - _close(sign, long, places)
@@ -222,7 +229,7 @@ def _alone(sign: float, long: _Shares, away: Array) -> Array:
 
 
 def _close(sign: float, long: _Shares, away: Array) -> Array:
-    """Return the part of one spread that is no power series in the square of the distance."""
+    """Return the part of `_spread` that is not a power series in the square of the distance."""
     logs = np.log(np.maximum(away, np.finfo(float).tiny))
     root, line = (3.0 - 2.0 * logs) * away**2 / pi, 0.5 * long[sign < 0.0] * away
     if long == _SHEARED:

@@ -1,4 +1,4 @@
-"""A solution between given ends of zones, how badly it violates its conditions, and its terms."""
+"""The iterate of the search for a plate: checks of its edges and peaks, gaps, and overlap."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
 
 
 def shear_over(attempt: PlateAttempt) -> float:
-    """Return by how much a sticking node's shear is beyond its bound, over the largest bound.
+    """Return the largest excess of a sticking node's shear over its bound, over the largest bound.
 
-    Infinite where one side presses nowhere.
+    Infinite where one side has no pressure.
     """
     state, most = attempt.state, 0.0
     for side, friction in enumerate(attempt.problem.frictions):
@@ -43,18 +43,18 @@ def shear_over(attempt: PlateAttempt) -> float:
 
 
 def pulls_at_edges(attempt: PlateAttempt) -> bool:
-    """Return whether sheet and surfaces pull at each other beside an edge; see `Mesh`."""
+    """Return whether the pressure beside any edge is tensile; see `Mesh.pulls_at_edge`."""
     sides = zip(attempt.problem.meshes, attempt.state.pressure, strict=True)
     return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
 
 
 def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
-    """Return what misplaced edges add to highest pressures at the nodes beside them, over these.
+    """Return the relative amount by which misplaced edges raise the peak pressures beside them.
 
-    An edge that lies inwards by delta of where it should leaves p ~ sqrt(y) + delta/(2 sqrt(y))
-    beside it, which on short elements exceeds all other pressures.
+    An edge that lies too far inwards by delta gives p ~ sqrt(y) + delta/(2 sqrt(y)) at the distance
+    y from it, which on short elements exceeds all other pressures.
 
-    ``proposed``: zones whose edges are where they should be.
+    ``proposed``: zones with their edges where they should be.
     """
     most = 0.0
     for side, mesh in enumerate(attempt.problem.meshes):
@@ -67,7 +67,7 @@ def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
 
 
 def overlap(attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-    """Return how far surfaces and sheet overlap outside the contacts, and tension, relative."""
+    """Return the relative overlap outside the contacts, or the relative tension in them."""
     problem, state, width = attempt.problem, attempt.state, attempt.zones.width
     parts = []
     for side, mesh in enumerate(problem.meshes):
@@ -84,7 +84,7 @@ def gap_at(
     side: int,
     x: Array,
 ) -> Array:
-    """Return the gap between one roller and the sheet at some places, (m,) [mm]."""
+    """Return the gap between one roller and the sheet at given places, (m,) [mm]."""
     problem, state, curved = attempt.problem, attempt.state, attempt.lagged.curved
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
     gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
@@ -97,7 +97,7 @@ def gap_at(
 def _displacements_at(
     mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x: Array
 ) -> Displacements:
-    """Return the displacements of one roller at some places; the other one's are zero."""
+    """Return the displacements of one roller at given places; those of the other one are zero."""
     four, surface = np.zeros((4, x.size)), (kernels.upper, kernels.lower)[side]
     if surface is None:
         return Displacements(four)
@@ -111,7 +111,7 @@ def _displacements_at(
 
 
 def carried(attempt: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
-    """Return the lagged terms of a solution on other meshes."""
+    """Return the lagged terms of a solution, interpolated to other meshes."""
     clearance, offsets, lagged = [], [], attempt.lagged
     for side, (old, new) in enumerate(zip(attempt.problem.meshes, problem.meshes, strict=True)):
         clearance.append(np.interp(new.inner, old.inner, lagged.clearance[side]))

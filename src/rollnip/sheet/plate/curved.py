@@ -1,18 +1,18 @@
-r"""What acts on a plate because its path is curved, of the order of its thickness times curvature.
+"""Loads on a plate due to the curvature of its path, of the order of thickness times curvature.
 
-The faces of a plate feel pressures p_u, p_l and shears q_u, q_l at their own abscissae
-x -+ (h/2) y', y(x) its path, and its tension N changes along the nip. Forces and moments on a piece
-of it then make the load on the plate (`rollnip.sheet.plate.bending`)
+The faces of a plate take pressures p_u, p_l and shears q_u, q_l at their own abscissae
+x -+ (h/2) y', where y(x) is its path, and the tension N varies along the nip. Equilibrium of forces
+and moments on an element then gives the load on the plate (`rollnip.sheet.plate.bending`)
 
     w = p_l - p_u - (h/2) d(q_u + q_l)/dx + dc/dx + f,
     c = (N - N_o) y' + (h/2) y' (p_u + p_l),    f = -d(N - N_o)/dx y',
 
-N_o the tension that goes evenly from that at the outlet to that at the inlet: the couple c and the
-force f are lagged. The plate is solved with the mean of both, and what they differ from it by is
-left out. A face lies h/2 sqrt(1 + y'^2) above or below the path at its own abscissa, so that
-either gap is less by (h/4) y'^2; bending stretches it as its direction turns, by
--+ (h/2) d(sin theta), tan theta = y'. All of it is left out where tension rather than stiffness
-spreads what presses on the sheet.
+where N_o varies linearly from the tension at the outlet to that at the inlet. The couple c and the
+force f are lagged. The plate is solved with the mean of both tensions; the difference of N_o from
+it is neglected. A face lies h/2 sqrt(1 + y'^2) above or below the path at its own abscissa, so each
+gap is smaller by (h/4) y'^2. Bending stretches the faces as the direction of the path changes, by
+-+ (h/2) d(sin theta), tan theta = y'. All of this is neglected where tension rather than stiffness
+spreads the pressures on the sheet.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class CurvedLoad:
-    """Couple and force on a plate along its path.
+    """Couple and force on a plate due to its curved path, and their effect at given places.
 
     Attributes
     ----------
     couple, force : c [N/mm] and f [MPa], each of one set, at the same nodes.
-    places : (m,) where it is asked what they do to the plate, in ascending order [mm].
-    height, turned : height [mm] and rotation of the plate under them there, each (m,).
+    places : (m,) at which their effect on the plate is known, in ascending order [mm].
+    height, turned : height [mm] and rotation of the plate due to them at these places, each (m,).
     """
 
     couple: Spread
@@ -52,7 +52,7 @@ class CurvedLoad:
 
     @classmethod
     def of(cls, couple: Spread, force: Spread, places: Array) -> CurvedLoad:
-        """Return the load with what it does at some places."""
+        """Return the load with its effect at given places."""
         return cls(couple, force, places, *_bent(couple, force, places))
 
     @property
@@ -66,14 +66,14 @@ class CurvedLoad:
         return float(self.force.moment[0] - self.couple.whole[0])
 
     def bent_at(self, x: Array) -> tuple[Array, Array]:
-        """Return height [mm] and rotation of the plate under them at some places, each (m,)."""
+        """Return height [mm] and rotation of the plate under the load at places, each (m,)."""
         at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
         if np.array_equal(self.places[at], x):
             return self.height[at], self.turned[at]
         return _bent(self.couple, self.force, x)
 
     def change_from(self, old: CurvedLoad, load: float) -> float:
-        """Return the largest change of couple and force since an older one, over a line load."""
+        """Return the largest change of couple and force since an older load, over the line load."""
         x = self.couple.nodes
         couple, force = (
             np.abs(new.lines[:, 0] - np.interp(x, one.nodes, one.lines[:, 0]))
@@ -91,21 +91,22 @@ def _bent(couple: Spread, force: Spread, x: Array) -> tuple[Array, Array]:
 
 
 def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:
-    """Return what stretches the faces as it changes: the sine of the path's direction, (m,).
+    """Return the sine of the path's direction, whose change stretches the faces, (m,).
 
-    Where the path counts as straight, ``curved`` None, that is its rotation ``turned``.
+    Where the path counts as straight, ``curved`` None, it is the rotation ``turned`` itself.
     """
     return turned if curved is None else np.asarray(turned / np.sqrt(1.0 + turned**2))
 
 
 def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
-    """Return whether stiffness rather than tension spreads what presses on the sheet.
+    """Return whether stiffness rather than tension spreads the pressures on the sheet.
 
-    A couple of N times the slope bends a wave of length 2 pi l by N l^2 over
-    D + N_o l^2 + k l^4 of itself, k the softer covering's E/d. That is N/(N_o + 2 sqrt(D k)) at
-    most, so that iterations of a lagged couple settle where N is less. Half of it is asked for,
-    and that N_o, too, is less: where tension spreads pressures, bending is little beside it. So it
-    is where l is less than the share of the nip from which stiffness counts.
+    A couple of N times the slope bends a wave of length 2 pi l by N l^2/(D + N_o l^2 + k l^4) of
+    the slope itself, where k = E/d of the softer covering. This is at most N/(N_o + 2 sqrt(D k)),
+    so iterations with a lagged couple converge where N is smaller than that denominator. Half of it
+    is required as a margin, and that N_o is smaller too: where tension spreads the pressures,
+    bending is small beside it. The same holds where l is below the share of the nip width from
+    which stiffness counts.
     """
     length = bending_length(problem.nip)
     if length < COUNTED * float(np.ptp(x)):
@@ -120,7 +121,7 @@ def places_along(problem: PlateProblem) -> Array:
 
 
 def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array) -> CurvedLoad:
-    """Return what acts on a plate whose path has a slope at some places, each (m,)."""
+    """Return the load on a plate whose path has the given slope at given places, each (m,)."""
     sheet, plate = problem.sheet, problem.plate
     sheared = np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
@@ -133,7 +134,7 @@ def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array
 
 
 def _tension_left_out(problem: PlateProblem, state: PlateState, x: Array) -> Array:
-    """Return N - N_o + (h/2) (p_u + p_l) at some places, (m,) [N/mm]."""
+    """Return N - N_o + (h/2) (p_u + p_l) at given places, (m,) [N/mm]."""
     sheet, pressed = problem.sheet, np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
         pressed += values_at(mesh, x) @ state.pressure[side]

@@ -1,4 +1,4 @@
-"""The solution of a plate's contact for given states, and the states that a solution calls for."""
+"""The linear system of a plate for given contact, stick and slip, LU-factorised."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from rollnip.sheet.system import SIGNS
 Array = NDArray[np.float64]
 
 FURTHER = 5
-"""Unknowns beside the tractions: approach, creepages, height and rotation of the sheet."""
+"""Number of unknowns besides the tractions: approach, two creepages, height and rotation."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactorisedPlate:
-    """The linear system that given states make, factorised."""
+    """The factorised linear system for given states, to be solved for several lagged terms."""
 
     problem: PlateProblem
     states: tuple[States, States]
@@ -38,7 +38,7 @@ class FactorisedPlate:
         return cls(problem, states, factors, pivots)
 
     def solved(self, lagged: LaggedPlate) -> PlateState:
-        """Return the solution for these states."""
+        """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
         right = -given(problem, lagged)[_places(states, problem.starts[-1])]
         unknowns, info = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
@@ -55,16 +55,16 @@ class FactorisedPlate:
 
 
 def _places(states: tuple[States, States], end: int) -> NDArray[np.intp]:
-    """Return the places of what is unknown: pressures in contact, shears in stick, and the rest.
+    """Return the indices of the unknowns: pressures in contact, shears in stick, and the rest.
 
-    ``end``: where the tractions end.
+    ``end``: number of tractions.
     """
     parts = [mask for one in states for mask in (one != State.FREE, one == State.STICK)]
     return np.append(np.concatenate(parts).nonzero()[0], np.arange(end, end + FURTHER))
 
 
 def _ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
-    """Return shear over pressure where interfaces slip, 0 elsewhere."""
+    """Return shear over pressure where the interfaces slip, 0 elsewhere."""
     upper, lower = (
         friction * SIGNS.take(one) for friction, one in zip(problem.frictions, states, strict=True)
     )
@@ -72,7 +72,11 @@ def _ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
 
 
 def _conditions(problem: PlateProblem) -> Array:
-    """Return what the tractions add up to, (5, r): load, forces and moment on the sheet, pulls."""
+    """Return the rows, (5, r), of the integral conditions on the tractions.
+
+    They are the load, the forces across the sheet, the moment on it, the change of tension, and
+    T_l.
+    """
     a, b, c, d, end = problem.starts
     weights = [mesh.weights for mesh in problem.meshes]
     moments = [one.moment for one in problem.spreads]
@@ -87,11 +91,11 @@ def _conditions(problem: PlateProblem) -> Array:
 
 
 def equations(problem: PlateProblem) -> Array:
-    """Return the matrix of gaps, creeps and the further conditions.
+    """Return the matrix of gaps, creeps and integral conditions for all tractions.
 
-    The rows are gap and creep of all nodes of the upper, then of the lower interface, and load,
-    forces and moment on the sheet, pull of the sheet, and what drives; the unknowns the tractions,
-    then approach, creepages, height and rotation.
+    The rows are gap and creep at all nodes of the upper, then of the lower interface; then load,
+    forces and moment on the sheet, change of its tension, and the prescribed drive. The unknowns
+    are the tractions, then approach, creepages, height and rotation.
     """
     a, b, c, d, end = problem.starts
     whole = np.zeros((end + FURTHER, end + FURTHER))
@@ -109,7 +113,7 @@ def equations(problem: PlateProblem) -> Array:
 
 
 def given(problem: PlateProblem, lagged: LaggedPlate) -> Array:
-    """Return what the rows of `equations` have without unknowns."""
+    """Return the parts of the rows of `equations` that do not depend on the unknowns."""
     nip, sheet = problem.nip, problem.sheet
     normal, tangential = nip.normal, nip.tangential
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
@@ -121,7 +125,7 @@ def given(problem: PlateProblem, lagged: LaggedPlate) -> Array:
 
 
 def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:
-    """Return the equations of given states: gaps in contact, creeps in stick, five conditions."""
+    """Return the equations for given states: gaps in contact, creeps in stick, five conditions."""
     a, b, c, d, end = problem.starts
     whole, places = equations(problem), _places(states, end)
     for ratio, at in zip(_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):

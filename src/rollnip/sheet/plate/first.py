@@ -1,9 +1,9 @@
-"""Zones to begin with: contact, stick and slip of all nodes at once, on meshes around the contacts.
+"""Initial zones of a plate: contact, stick and slip at all nodes, on meshes around the contacts.
 
-A first mesh reaches far beyond the contacts. Each further one ends nearer to the edges that the one
-before found, and its nodes crowd at them; the last ends about a thickness of the sheet away, for on
-a rigid roller the pressure ends in a peak as short as that. An edge that is wrong by more than the
-peak is long moves the wrong way when zones follow their solution.
+The first mesh extends far beyond the contacts. Each further one ends closer to the edges that the
+previous one found, and its nodes crowd there. The last ends about one sheet thickness away, because
+on a rigid roller the pressure ends in a peak as short as that: an edge whose error exceeds the
+length of the peak would move the wrong way in the search that follows.
 """
 
 from __future__ import annotations
@@ -23,29 +23,29 @@ from rollnip.sheet.plate.sides import side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 
-_ELEMENTS = 30  # of a mesh that reaches beyond the contacts
+_ELEMENTS = 30  # least number for a mesh that extends beyond the contacts
 _MOST_ELEMENTS = 100
-_REACH = 1.6  # half of the first mesh over the half-width of a sheet that bends freely
-_WIDER = 1.5  # times the reach, where the contact does not fit in
+_REACH = 1.6  # half-length of the first mesh over the half-width of a membrane
+_WIDER = 1.5  # growth of the first mesh where the contact does not fit into it
 _MOST_REACHES = 4
-_MARGIN = 0.15  # of the width, beyond edges that are about known
-_NEARER = 0.25  # times the margin before, where that held the edges
-_INSIDE = 0.9  # of the margin, where an edge is away from the end of the mesh
-_BESIDE = 8  # elements beyond each edge that is nearly known
+_MARGIN = 0.15  # over the width, beyond edges that are approximately known
+_NEARER = 0.25  # reduction of the margin where the mesh contained the edges
+_INSIDE = 0.9  # of the margin: an edge that moved less counts as inside the mesh
+_BESIDE = 8  # elements beyond each approximately known edge
 
 
 @dataclass(frozen=True, slots=True)
 class FirstZones:
-    """The search for zones to begin with, for one nip."""
+    """The search for initial zones, for one nip."""
 
     nip: Nip
     kernels: PairKernels
 
     def around(self, half_width: float, count: int) -> PlateZones:
-        """Return zones of a contact of which little is known.
+        """Return zones of a contact of which only an approximate half-width is known.
 
-        ``half_width``: about that of a sheet that bends freely [mm]; ``count``: elements of the
-        mesh that they begin.
+        ``half_width``: about that of a membrane [mm]; ``count``: elements of the mesh for which the
+        zones are meant.
         """
         reach = _REACH * half_width
         for _ in range(_MOST_REACHES):
@@ -58,12 +58,12 @@ class FirstZones:
         return self.closer(PlateZones.around(problem, state), None, count)
 
     def closer(self, zones: PlateZones, lagged: LaggedPlate | None, count: int) -> PlateZones:
-        """Return zones from some whose edges are about right, on meshes that crowd there.
+        """Return more accurate zones from approximate ones, on meshes that crowd at their edges.
 
-        Each mesh ends nearer to the edges that the one before found; where edges moved to the end
-        of a mesh, the next one has as much room. Where a mesh has no solution, those before are
-        returned. ``lagged``: terms of a solution with about these
-        zones, whose traction and load are taken; None: none is known.
+        Each mesh ends closer to the edges that the previous one found; where edges moved to the end
+        of a mesh, the next one keeps the same margin. Where a mesh has no solution, the last zones
+        are returned. ``lagged``: terms of a solution with approximately these zones, whose traction
+        and shear-borne load are used; None: none is known.
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
@@ -82,7 +82,7 @@ class FirstZones:
     def _beyond(
         self, zones: PlateZones, lagged: LaggedPlate | None, elements: int, margin: float
     ) -> PlateZones:
-        """Return zones on meshes that end a share of the width beyond the edges of others."""
+        """Return the zones on meshes that end ``margin`` times the width beyond the edges."""
         problem = self._problem(zones, margin, elements)
         first = first_lagged(problem)
         if lagged is not None:
@@ -92,7 +92,7 @@ class FirstZones:
     def _solved_node_by_node(
         self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges
     ) -> PlateState:
-        """Return a solution with contact, stick and slip; with a wanted torque on the way too."""
+        """Return a solution with contact, stick and slip; a prescribed torque takes two solves."""
         state, _ = solve_node_by_node(problem, lagged, edges)
         if isinstance(self.nip.tangential, Torque):
             wanted = lagged_terms(problem, "linear", state).traction
@@ -100,9 +100,9 @@ class FirstZones:
         return state
 
     def _problem(self, zones: PlateZones, margin: float, count: int) -> PlateProblem:
-        """Assemble the problem on meshes that end a share of the width beyond the edges.
+        """Assemble the problem on meshes that end ``margin`` times the width beyond the edges.
 
-        Beyond edges that are nearly known nodes crowd at these.
+        Where the edges are approximately known, nodes crowd there.
         """
         kernels = self.kernels
         if not kernels.is_fixed:
@@ -120,7 +120,7 @@ class FirstZones:
 def _breaks(
     zones: PlateZones, number: int, margin: float, count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Return where nodes of one interface crowd, and how many elements lie between."""
+    """Return the places where nodes of one interface crowd, and the elements in between."""
     side, (trailing, leading) = zones.sides[number], zones.sides[number].edges
     beyond = margin * side.width
     if not margin > 0.0:

@@ -1,4 +1,4 @@
-"""A sheet that resists bending, as a kind of sheet."""
+"""The formulation of a sheet with bending stiffness: a plate."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ON_LOWER = [NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_
 
 @dataclass(frozen=True, slots=True)
 class Bending:
-    """A nip with a sheet that resists bending: either interface has a contact of its own."""
+    """A nip with a plate: each interface has a contact of its own."""
 
     nip: Nip
 
@@ -39,13 +39,13 @@ class Bending:
 
     @property
     def bending_length(self) -> float:
-        """Length over which the sheet bends [mm]."""
+        """Length over which bending stiffness acts [mm]."""
         return bending_length(self.nip)
 
     def peaks_allowed(self, model: Model) -> tuple[float, float]:
-        """Return the relative error that is allowed of the highest pressure on either side.
+        """Return the allowed relative error of the peak pressure on each side.
 
-        On a bare roller finite strain leaves more of the peak open than the tolerance asks for.
+        On a bare roller finite strain leaves the peak more uncertain than the tolerance.
         """
         left = SHARE_OF_EDGE_PEAK["finite"] if model.geometry in FINITE else 0.0
         rigid = max(model.tolerance, left)
@@ -57,7 +57,7 @@ class Bending:
     def figures(
         self, attempt: PlateAttempt, geometry: Geometry
     ) -> tuple[SheetFigures, SheetFigures]:
-        """Return figures with width and pressure of the upper, and of the lower interface."""
+        """Return figures with width and pressure of the upper interface, and of the lower one."""
         problem, state = attempt.problem, attempt.state
         x = _turning_places(problem, state)
         tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
@@ -77,7 +77,7 @@ class Bending:
         return upper, SheetFigures(lower)
 
     def pulls(self, attempt: PlateAttempt, geometry: Geometry) -> Pulls:
-        """Return int q lambda ds of either roller [N/mm]."""
+        """Return int q lambda ds of both rollers [N/mm]."""
         problem, state, out = attempt.problem, attempt.state, []
         for side, mesh in enumerate(problem.meshes):
             u = problem.displacements(state, side)
@@ -88,11 +88,11 @@ class Bending:
         return out
 
     def overlap(self, attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-        """Return how far surfaces and sheet overlap outside the contacts, and tension, relative."""
+        """Return the relative overlap outside the contacts, or the relative tension in them."""
         return overlap(attempt, kernels, geometry)
 
     def holding(self, attempt: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
-        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         meshes = list(attempt.problem.meshes)
         for side, roller in enumerate((self.nip.upper, self.nip.lower)):
             if not roller.is_rigid and kernels.held is not None:
@@ -104,14 +104,14 @@ class Bending:
         return replace(attempt, problem=problem, lagged=lagged, change=change)
 
     def missed(self, attempt: PlateAttempt, other: PlateAttempt) -> float:
-        """Return how badly a solution violates its conditions with the terms of the other one."""
+        """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
 
 def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
-    """Return the finer nodes of both meshes, and where tension turns between them, (m,) [mm].
+    """Return the fine nodes of both meshes and the extrema of the tension between them, (m,) [mm].
 
-    Between these nodes its slope q_u - q_l is a straight line.
+    Between these nodes the slope of the tension, q_u - q_l, is linear.
     """
     x = np.unique(np.concatenate([one.nodes for one in problem.pulls]))
     upper, lower = (
@@ -125,10 +125,10 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
 
 
 def _into_sheet(attempt: PlateAttempt) -> float:
-    """Return the power of the shears on the faces of the sheet over V [N/mm].
+    """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
-    Its faces run at V_s (1 + e -+ h y''/2); "linear" keeps the products with the strains, which
-    are of second order.
+    The faces run at V_s (1 + e -+ h y''/2). "linear" keeps the products with the strains, which are
+    of second order.
     """
     problem, state = attempt.problem, attempt.state
     rate, taken = sheet_rate(*state.creepages), 0.0

@@ -1,4 +1,4 @@
-"""Terms of a plate's contact that depend on its solution: stretch of the rollers, torque."""
+"""Lagged terms of a plate's contact: finite stretch, curved path, prescribed torque."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 def first_lagged(problem: PlateProblem) -> LaggedPlate:
-    """Return zero terms, and the prescribed traction; zero traction for a prescribed torque."""
+    """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     tangential = problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
     traction = 0.0 if isinstance(tangential, Torque) else traction
@@ -32,7 +32,7 @@ def first_lagged(problem: PlateProblem) -> LaggedPlate:
 
 
 def has_none(problem: PlateProblem, geometry: Geometry) -> bool:
-    """Return whether nothing depends on the solution."""
+    """Return whether the problem is linear, without any term that depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
 
 
@@ -42,7 +42,10 @@ def lagged_terms(
     state: PlateState,
     before: LaggedPlate | None = None,
 ) -> LaggedPlate:
-    """Return the terms of a solution; ``before``: those that it was solved with, None: none."""
+    """Return the lagged terms that follow from a solution.
+
+    ``before``: the terms that it was solved with; None: none.
+    """
     first = first_lagged(problem)
     if has_none(problem, geometry):
         return first
@@ -63,7 +66,7 @@ def lagged_terms(
             continue
         here, half = slopes[side], 0.5 * problem.sheet.thickness
         clearance[side] -= 0.5 * half * here[:-1] ** 2
-        # the linear system has the rotation; all of the face runs at V_s
+        # the linear system includes the rotation itself; the whole face runs at V_s
         turned, rate = here / np.sqrt(1.0 + here**2) - here, sheet_rate(*state.creepages)
         turned += (1.0 - 1.0 / rate) * bent[side]
         offsets[side] += rate * half * np.diff(turned)
@@ -79,7 +82,7 @@ def lagged_terms(
 
 
 def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
-    """Return the rotation that a curved path makes at nodes[1:] of either mesh."""
+    """Return the rotation due to the curved path at nodes[1:] of both meshes."""
     both = (curved.bent_at(mesh.nodes[1:])[1] for mesh in problem.meshes)
     upper, lower = both
     return upper, lower
@@ -88,7 +91,7 @@ def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
 def change_of(
     new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
 ) -> float:
-    """Return the largest change of the terms, relative to the first-order ones."""
+    """Return the largest change of the terms, relative to the first-order quantities."""
     nip = problem.nip
     half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
     strain = nip.curvature * half
@@ -110,7 +113,7 @@ def change_of(
 def _curved_change(
     new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
 ) -> float:
-    """Return how much of the load the couples and forces of a curved path have changed by."""
+    """Return the change of the couples and forces of a curved path, over the load."""
     if new.curved is None or old.curved is None:
         return 0.0
     load = float(problem.meshes[0].weights @ state.pressure[0])
@@ -118,7 +121,7 @@ def _curved_change(
 
 
 def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState) -> float:
-    """Return how badly a solution violates its conditions with other terms, relative.
+    """Return the relative residual of a solution under other lagged terms.
 
     See `rollnip.sheet.lagged.missed`.
     """
@@ -152,7 +155,7 @@ def pull_of(
 def _clearance(
     problem: PlateProblem, geometry: Geometry, side: int, flat: Displacements, u: Displacements
 ) -> Array:
-    """Return what finite strain adds to the gap of one interface [mm]."""
+    """Return the contribution of finite strain to the gap of one interface [mm]."""
     mesh = problem.meshes[side]
     if geometry not in FINITE:
         return np.zeros(mesh.inner.size)
@@ -168,7 +171,7 @@ def _offsets(
     side: int,
     displacements: tuple[Displacements, Displacements],
 ) -> Array:
-    """Return what stretch and products of creepage and strain add to the linear creep.
+    """Return the nonlinear part of one creep: stretch, and products of creepage and strain.
 
     The creep is (V_u/V) stretch_u - (V_s/V) (1 + e - h y''/2) on the upper interface, and
     (V_s/V) (1 + e + h y''/2) - (V_l/V) stretch_l on the lower one.

@@ -1,4 +1,4 @@
-"""What unit tractions on both interfaces of a plate do to their gaps and creeps."""
+"""Influence matrix of a plate: gaps and creeps of both interfaces per unit traction on each."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rollnip.sheets import Sheet
 Array = NDArray[np.float64]
 Pair = tuple[Array, Array]
 """Values of the upper and of the lower interface."""
-_STEEP = 4.0  # how fast the integral of the tension changes its kind
+_STEEP = 4.0  # exponent of the blend between exact and lumped integrals of the tension
 
 
 def gaps_and_creeps_of(
@@ -26,8 +26,8 @@ def gaps_and_creeps_of(
 
     Returns
     -------
-    (r, r) gap and creep of the upper, then of the lower interface, and (m, r) rotation of the
-    sections at nodes[1:] of both meshes, per p_u, q_u, p_l and q_l.
+    (r, r) gap and creep of the upper, then of the lower interface; and (m, r) rotation of the
+    sections at nodes[1:] of both meshes; both per p_u, q_u, p_l and q_l.
     """
     by_rollers = [_by_roller(mesh, at) for at, mesh in enumerate(meshes)]
     n, m = (mesh.inner.size for mesh in meshes)
@@ -52,7 +52,7 @@ def gaps_and_creeps_of(
 
 
 def _by_roller(mesh: Mesh, side: int) -> Array:
-    """Return gap and creep of one interface by its own roller, (2 n, 2 n) [mm/MPa]."""
+    """Return gap and creep of one interface due to its own roller, (2 n, 2 n) [mm/MPa]."""
     n, sign = mesh.inner.size, SIGNS[side]
     xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
     out = np.zeros((2 * n, 2 * n))
@@ -66,18 +66,19 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 def _by_sheet(
     meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], by: int, own: Array
 ) -> tuple[Array, Array]:
-    """Return gaps and creeps by what tractions on one interface do to the sheet, less `sheared`.
+    """Return gaps and creeps due to the sheet under tractions on one interface, without `sheared`.
 
     Parameters
     ----------
-    spreads : of loads, and of pulls, on the interface ``by``.
+    spreads : of loads and of pulls on the interface ``by``.
+    by : the loaded interface, 0 the upper and 1 the lower.
     own : (m - 1,) see `_lumped_share`.
 
     Returns
     -------
-    (2, m - 1, 2, n) gaps at the m places nodes[1:] of both meshes but the last, and creeps up to
-    the next one, per pressure and shear; those between both meshes mean nothing. And (m, 2 n)
-    rotations of the sections at the places.
+    (2, m - 1, 2, n) gaps at nodes[1:] of both meshes, m places in all, except the last, and creeps
+    up to the next place, per pressure and shear; the entry between the two meshes is meaningless.
+    And (m, 2 n) rotations of the sections at the places.
     """
     one, pull = spreads
     sheet, half, there = one.sheet, 0.5 * one.sheet.thickness, SIGNS[by]
@@ -89,7 +90,7 @@ def _by_sheet(
     pulled = loads if pull is one else pull.moments_beyond(x)
     height, slope, bend = one.bent(x, loads)
     out = np.empty((2, x.size - 1, 2, one.lines.shape[1]))
-    # y goes with -p_u and +p_l, the gap above with -y and below with +y
+    # y is driven by -p_u and +p_l; the upper gap contains -y, the lower one +y
     out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_far[:-1])
     warped = one.warped(x, is_far, loads)
     tilted = warped if pull is one else pull.warped(x, is_far, pulled)
@@ -120,9 +121,9 @@ def _stretched(sheet: Sheet, signs: Array, tails: Array, bends: Array) -> Array:
 def _lumped_share(sheet: Sheet, dx: Array, own: Array) -> Array:
     """Return the share of each interval that takes shears as forces at their nodes, (k, 1).
 
-    Where an interval stretches more by the tension and the bending that its own node makes than by
-    that node's shear on the roller, ``own``, exact integrals let neighbouring shears alternate and
-    grow.
+    Where a node's shear stretches its interval more through the sheet's tension and bending than
+    through the roller, ``own``, exact integration lets the shears of neighbouring nodes alternate
+    and grow.
     """
     strain = 4.0 * sheet.stretch_by_tension
     ratio = strain * dx**2 / (6.0 * np.abs(own))

@@ -1,4 +1,4 @@
-"""Contact, stick and slip of both interfaces of a plate, sought together on two meshes."""
+"""Contact, stick and slip at all nodes of a plate's two meshes, without zones."""
 
 from __future__ import annotations
 
@@ -17,28 +17,30 @@ from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]
 
-_ENOUGH = 1e-4  # left of the conditions, where states are taken although they gain no more
-_LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
+_ENOUGH = 1e-4  # residual at which the states are accepted although it shrinks no further
+_LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
 def solve_node_by_node(
     problem: PlateProblem, lagged: LaggedPlate, edges: Edges
 ) -> tuple[PlateState, int]:
-    """Return the solution on two meshes whose contact, stick and slip meet all conditions.
+    """Return the solution on two meshes whose nodal contact, stick and slip meet all conditions.
+
+    It solves the complementarity problem of contact and friction by an interior-point method.
 
     Parameters
     ----------
-    problem, lagged : on meshes that hold the contacts.
-    edges : trailing and leading edge of either contact, about [mm].
+    problem, lagged : on meshes that contain the contacts.
+    edges : approximate trailing and leading edge of each contact [mm].
 
     Returns
     -------
-    The solution, and how many linear systems it took.
+    The solution, and the number of linear systems solved.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where none is found.
+        where no solution is found.
     """
     found = interior_point(*_inequalities(problem, lagged, edges), _ENOUGH)
     end, n = problem.starts[-1], problem.meshes[0].inner.size
@@ -69,7 +71,7 @@ def solve_node_by_node(
 def _inequalities(
     problem: PlateProblem, lagged: LaggedPlate, edges: Edges
 ) -> tuple[Inequalities, Array]:
-    """Return gaps and creeps on two meshes and their bounds, and where to begin."""
+    """Return the complementarity problem of gaps and creeps on two meshes, and a starting point."""
     a, b, c, d, end = problem.starts
     matrix, right = equations(problem), given(problem, lagged)
     curvature = problem.nip.curvature
@@ -80,7 +82,7 @@ def _inequalities(
     scales, start = np.empty(end + FURTHER), np.zeros(end + FURTHER)
     sizes = np.empty(end + FURTHER)
     for side, (first, middle, last) in enumerate(((a, b, c), (c, d, end))):
-        # a narrow contact is as deep as it is wide, squared
+        # the depth of a contact goes with the square of its width
         scales[first:middle] = 0.5 * curvature * half_widths[side] ** 2
         scales[middle:last] = curvature * half_widths[side] * problem.meshes[side].dx
         start[first:middle], sizes[first:last] = guess[side], float(guess[side].max())
@@ -105,9 +107,10 @@ def _inequalities(
 
 
 def _guessed(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, float]:
-    """Return pressures like ellipses and the load; the forces of both are alike.
+    """Return elliptic pressures of equal force on both interfaces, and that force.
 
-    A load that is not given is the one that presses the rollers as deep as they overlap.
+    Where the load is not prescribed, it is the one that indents the rollers as deep as they
+    overlap.
     """
     normal = problem.nip.normal
     upper, lower = (
@@ -126,13 +129,13 @@ def _guessed(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, f
 
 
 def _rise(pressed: Array, pressure: Array) -> float:
-    """Return how much deeper a surface is pressed in the contact than at its edges [mm]."""
+    """Return how much deeper a surface is indented inside the contact than at its edges [mm]."""
     inside = np.flatnonzero(pressure)
     rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
     return rise if rise > 0.0 else float(np.abs(pressed).max())
 
 
 def _ellipse(x: Array, trailing: float, leading: float) -> Array:
-    """Return pressures between two edges whose force is 1 N/mm [MPa]."""
+    """Return an elliptic pressure between two edges, with a force of 1 N/mm [MPa]."""
     middle, half = 0.5 * (leading + trailing), 0.5 * (leading - trailing)
     return 2.0 / (pi * half) * np.sqrt(np.maximum(1.0 - ((x - middle) / half) ** 2, 0.0))

@@ -1,9 +1,10 @@
-"""The search for the zones of both interfaces of a plate and their ends, on meshes of one size.
+"""Search for the zones of a plate: states and ends of stick and slip, on meshes of one size.
 
-Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
-(`first`). Edges and transitions then lie at nodes of the interface that they belong to, and the
-tractions at the first nodes beside them say where they move (`contact.Layout.moved`). Where a
-solution violates its conditions, the states of its nodes are found again.
+The search starts with zones from meshes that extend beyond the contacts, where the states of all
+nodes are found at once (`first`). Edges and transitions then lie at nodes of the interface to which
+they belong, and the tractions at the first nodes beside them show where they belong
+(`contact.Layout.moved`). Where a solution violates its conditions, the nodal states are determined
+again.
 """
 
 from __future__ import annotations
@@ -49,23 +50,23 @@ from rollnip.sheet.search import SHORTEST_LAYER
 
 Array = NDArray[np.float64]
 
-_SLACK = 0.1  # of the tolerance: shear over the bound, relative, that counts as rounding
-_FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
-_NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
-# Of all elements, in each zone. The strip between the edges of both contacts decides as much as
-# long zones: where it had six elements on all sizes of mesh, these agreed on wrong figures.
+_SLACK = 0.1  # over the tolerance: relative excess of the shear that counts as rounding
+_FAIRLY_PLACED = 2e-3  # end error over the width, small enough to judge the states
+_NEARLY_PLACED = 0.01  # end error over the width, small enough for secant steps
+_OF_THICKNESS = 0.25  # boundary layer of the pressure on a rigid roller, over the sheet's thickness
+# Least share of all elements in each zone. The strip between the edges of both contacts matters as
+# much as long zones: with six elements in it on all mesh sizes, these agreed on wrong figures.
 _LEAST_SHARE = 0.2
 _MOST_MESHES = 18
-_MOST_ROUGH = 6  # meshes in a row on which ends only move
-_MOST_NODES = 320  # of a mesh whose states are sought all at once
-_MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
+_MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not checked
+_MOST_NODES = 320  # of a mesh whose states are determined all at once
+_MOST_CHANGES = 3  # of the zones' states, before the search starts again
 _MOST_ITERATIONS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 
 
 _Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
-"""Elements in each zone, by interface and how nodes crowd in the zones."""
+"""Number of elements in each zone, by interface and by the crowding of nodes in the zones."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class PlateSearch:
     moves: Moves[PlateZones] = field(default_factory=Moves)
 
     def begun(self, half_width: float, count: int) -> PlateAttempt:
-        """Return a solution on a first mesh, in linear geometry, whose ends are about right."""
+        """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         zones = self._first.around(half_width, count).without_slivers()
         attempt, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
@@ -97,10 +98,10 @@ class PlateSearch:
         before: PlateAttempt,
         closely: float,
     ) -> PlateAttempt:
-        """Return the solution on meshes of some size with nodes at the ends of its zones.
+        """Return the solution on meshes of one size with nodes at the ends of its zones.
 
-        ``before``: a solution with about these zones; ``closely``: allowed error of an end, of the
-        tolerance times the width.
+        ``before``: a solution with approximately these zones; ``closely``: allowed error of a zone
+        end, over the tolerance times the width.
         """
         placed = closely * self.model.tolerance
         try:
@@ -120,10 +121,10 @@ class PlateSearch:
     def _moved_until(
         self, zones: PlateZones, count: int, before: PlateAttempt, placed: float
     ) -> PlateAttempt:
-        """Move the ends of zones until they settle, and change zones that are wrong.
+        """Move the zone ends until they converge, and change zones with wrong states.
 
-        Slip that one node asks for is tried; where it does not settle, the zones without it do.
-        ``placed``: allowed error of an end, over the width.
+        Slip that a single node calls for is tried; if it does not converge, the solution without it
+        is returned. ``placed``: allowed error of a zone end, over the width.
         """
         self.moves.refined()
         shapes = _Shapes()
@@ -176,9 +177,9 @@ class PlateSearch:
         misplacement: tuple[float, float],
         before: PlateAttempt | None,
     ) -> tuple[PlateAttempt, bool]:
-        """Solve between given ends of zones; ``sizes`` and what is returned: see `_problem`.
+        """Solve for given zones; for ``sizes`` and the second value returned see `_problem`.
 
-        ``misplacement``: how far ends were off, the least and on the last mesh of this size.
+        ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
         """
         problem, is_fine = self._problem(zones, sizes, misplacement[0], before)
         start = first_lagged(problem) if before is None else carried(before, problem)
@@ -187,7 +188,7 @@ class PlateSearch:
 
     @cached_property
     def boundary(self) -> float:
-        """Length of the shortest boundary layer at the ends of zones [mm]."""
+        """Length of the shortest boundary layer at zone ends [mm]."""
         return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
 
     def _boundary_of(self, side: int) -> float:
@@ -210,12 +211,12 @@ class PlateSearch:
         known: float,
         before: PlateAttempt | None,
     ) -> tuple[PlateProblem, bool]:
-        """Assemble the problem on meshes with nodes at the ends of zones.
+        """Assemble the problem on meshes with nodes at the zone ends.
 
-        ``sizes``: about how many elements, and those of meshes before, which are kept: while ends
-        move, solutions on meshes of one shape differ by the moves alone. Return also whether nodes
-        crowd there as much as boundary layers ask for; they do not where ends are ``known`` to a
-        larger share of the width only.
+        ``sizes``: approximate number of elements, and the shapes of earlier meshes, which are
+        reused: solutions on meshes of one shape differ only by the moves of the ends. Also return
+        whether nodes crowd at the ends as much as the boundary layers require; they do not where
+        the ends are ``known`` only to a larger fraction of the width.
         """
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
@@ -238,7 +239,7 @@ class PlateSearch:
     def _arcs(
         self, meshes: tuple[Mesh, Mesh], before: PlateAttempt | None
     ) -> tuple[Array, Array] | None:
-        """Return ds/dx of the sheet's path in the solution before, at the finer nodes of meshes."""
+        """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
         if before is None or self.model.geometry not in FINITE:
             return None
         out = []
@@ -250,9 +251,9 @@ class PlateSearch:
         return out[0], out[1]
 
     def _holding(self, before: PlateAttempt | None, side: int) -> PairKernels:
-        """Return influence functions with the second order of one roller in the solution before.
+        """Return influence functions with one roller's second-order terms of the previous solution.
 
-        Those that have no second order are as they are.
+        Influence functions without second-order terms are returned unchanged.
         """
         if self.kernels.is_fixed:
             return self.kernels
@@ -269,7 +270,7 @@ class PlateSearch:
         steps: int,
         misplacement: float,
     ) -> PlateAttempt:
-        """Solve on two meshes with given zones, in iterations of the lagged terms."""
+        """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
         change, still = 0.0, _STILL * self.model.tolerance
@@ -292,7 +293,7 @@ class PlateSearch:
         return _SLACK * self.model.tolerance
 
     def _found(self, attempt: PlateAttempt, edges: PlateZones) -> PlateZones | None:
-        """Return the zones between known edges that suit a solution; None where there are none."""
+        """Return zones with consistent states between known edges; None where there are none."""
         if max(mesh.inner.size for mesh in attempt.problem.meshes) > _MOST_NODES:
             return None
         try:
@@ -304,6 +305,6 @@ class PlateSearch:
 
 
 def _unplaced(zones: PlateZones, attempt: PlateAttempt, misplacement: float) -> PlateAttempt:
-    """Return the last solution, whose ends have not settled."""
+    """Return the last solution, marked as not converged."""
     proper = zones if zones.is_proper else attempt.zones
     return replace(attempt, zones=proper, settled=False, misplacement=misplacement)

@@ -1,4 +1,4 @@
-"""One interface of a plate: its mesh, its roller, and its highest pressure."""
+"""One interface of a plate: its mesh, the displacements of its roller, and its peak pressure."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from rollnip.rolling.surfaces import Mesh
 
 Array = NDArray[np.float64]
 SIGNS = (1.0, -1.0)
-"""Of the shear on each roller, and of the creep of its surface."""
+"""Signs of the shear on the upper and lower roller, and of the creep of its surface."""
 _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
-"""Coefficients of a cubic, from the constant on, by its values at 0, 1, 2 and 3."""
+"""Matrix from the values of a cubic at 0, 1, 2 and 3 to its coefficients, constant first."""
 
 
 @dataclass(frozen=True, slots=True)
 class SideMesh(Mesh):
-    """A mesh on one interface, where one roller alone has displacements.
+    """A mesh on one interface, where only one roller has displacements.
 
-    ``influence`` is empty: that of a contact with a plate is `PlateProblem.matrix`.
+    ``influence`` is empty: the influence matrix is `PlateProblem.matrix`.
     """
 
     is_bare: ClassVar[bool] = False
 
 
 def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) -> SideMesh:
-    """Return a mesh on which one roller alone has displacements; none where it is rigid."""
+    """Return a mesh on which only one roller has displacements; none at all where it is rigid."""
     surface = (kernels.upper, kernels.lower)[side]
     if surface is None:
         return _rigid_mesh(nodes, fine, kernels)
@@ -72,9 +72,9 @@ def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> SideMe
 
 
 def own_displacements(mesh: Mesh, side: int, pressure: Array, shear: Array) -> Displacements:
-    """Return the linear displacements of one roller at nodes[1:]; the other one's are zero.
+    """Return the linear displacements of one roller at nodes[1:]; those of the other one are zero.
 
-    ``shear`` is q_u on the upper roller, and q_l, which acts as -q_l, on the lower one.
+    ``shear`` is q_u on the upper roller; on the lower one it is q_l, which acts as -q_l.
     """
     xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
     t = SIGNS[side] * shear
@@ -85,7 +85,7 @@ def own_displacements(mesh: Mesh, side: int, pressure: Array, shear: Array) -> D
 
 
 def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
-    """Return int (du_x/dx - u_z/R) dx over the intervals, of displacements at nodes[1:]."""
+    """Return int (du_x/dx - u_z/R) dx over the intervals, for displacements at nodes[1:]."""
     out = u_x[1:] - u_x[:-1]
     hoop = mesh.kernels.hoops[side]
     if hoop:
@@ -97,7 +97,7 @@ def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
 
 
 def values_at(mesh: Mesh, x: Array) -> Array:
-    """Return nodal tractions interpolated to some places, (m, n); 0 beyond the mesh."""
+    """Return the matrix that interpolates nodal tractions to places, (m, n); 0 off the mesh."""
     fine = mesh.fine
     assert fine.values is not None
     padded = np.zeros((fine.nodes.size, mesh.inner.size))
@@ -110,11 +110,11 @@ def values_at(mesh: Mesh, x: Array) -> Array:
 
 
 def highest(mesh: Mesh, pressure: Array) -> tuple[float, float]:
-    """Return the highest pressure on one interface, between nodes too, and its place.
+    """Return the peak pressure on one interface, also between nodes, and its place.
 
-    Within a zone pressures and places are cubics in the number of the node (`Subdivision`). A
-    parabola through three of the finer nodes is a thousandth off where the pressure rises over some
-    ten elements, as beside an edge on a rigid roller.
+    Within a zone pressures and places are cubics in the node number (`Subdivision`). A parabola
+    through three of the fine nodes would have an error of a thousandth where the pressure rises
+    over some ten elements, as beside an edge on a rigid roller.
     """
     fence = np.concatenate([[-np.inf], pressure, [-np.inf]])
     tops = np.flatnonzero((pressure >= fence[:-2]) & (pressure >= fence[2:]))
@@ -145,7 +145,7 @@ def _highest_about(mesh: Mesh, pressure: Array, top: int) -> tuple[float, float]
 
 
 def _turns(cubic: list[float]) -> list[float]:
-    """Return where a cubic, given by its coefficients from the constant on, turns."""
+    """Return the stationary points of a cubic, given by its coefficients from the constant on."""
     _, slope, half_bend, third = cubic
     inside = half_bend**2 - 3.0 * third * slope
     if inside < 0.0:

@@ -1,4 +1,4 @@
-"""The result of a nip with a sheet that resists bending."""
+"""The solution of a nip with a plate."""
 
 from __future__ import annotations
 
@@ -34,30 +34,30 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlateSolution(SheetSolution):
-    """A solved nip with a sheet that resists bending.
+    """A solved nip with a sheet whose bending stiffness is included.
 
-    Everything that `SheetSolution` says; pressure, nip width, contact and gap are those of the
-    upper interface, those of the lower one are in ``sheet``.
+    It offers what `SheetSolution` does; pressure, nip width, contact and gap are those of the upper
+    interface, those of the lower one are in ``sheet``.
     """
 
     @property
     def _gap(self) -> Array:
-        """Gap above the sheet [mm]."""
+        """Gap between the upper surface and the sheet [mm]."""
         above = self.deformed_surfaces.upper - self._height
         return np.asarray(above + self._thinned_faces[0])
 
     @property
     def bends(self) -> bool:
-        """Whether the sheet's stiffness against bending is counted: it is."""
+        """Whether the sheet's bending stiffness is included: it is."""
         return True
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
-        """Return errors by name, and what terms of higher order in the path's slope may change.
+        """Return errors by name, including those due to terms of higher order in the path's slope.
 
-        The moment that bends the sheet, and the strain of its faces, are known to the square of
-        the slope, which the tension of a stiff sheet and the width on a bare roller feel. There the
-        pressure ends in a peak as long as the sheet is thick, known as well as one beside an edge
-        under a stiff skin (decision 44).
+        The bending moment of the sheet and the strain of its faces are accurate to the square of
+        the slope, which affects the tension of a stiff sheet and the width on a bare roller. There
+        the pressure ends in a peak as long as the sheet is thick, which is as uncertain as one
+        beside an edge under a stiff skin (decision 44).
         """
         out = super()._claimed(figures, errors)
         if self.model.geometry not in FINITE:
@@ -85,7 +85,7 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _path(self) -> tuple[float, float]:
-        """Return the largest square of the path's slope in the contacts, and its curvature."""
+        """Return the largest squared slope and curvature of the path in the contacts."""
         attempt, slope, curvature = self._standing, 0.0, 0.0
         rotations = attempt.problem.rotations(attempt.state, attempt.lagged.curved)
         for mesh, rotation in zip(attempt.problem.meshes, rotations, strict=True):
@@ -148,7 +148,7 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _height(self) -> Array:
-        """Height of the sheet at ``_points``, its thickness left out [mm]."""
+        """Height of the sheet's path at ``_points``, without its thickness [mm]."""
         attempt = self._standing
         return attempt.problem.height_at(attempt.state, self._points[0], attempt.lagged.curved)
 
@@ -205,7 +205,7 @@ class PlateSolution(SheetSolution):
 
 
 def plate_round(refined: Refined[PlateAttempt]) -> Round:
-    """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
+    """Return a solution as the `Round` of a bare nip, with the tractions of the upper interface."""
     attempt = refined.attempt
     state, problem = attempt.state, attempt.problem
     upper, lower = problem.meshes
@@ -246,7 +246,7 @@ def plate_round(refined: Refined[PlateAttempt]) -> Round:
 
 
 def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
-    """Return the round of the lower interface beside that of the upper one."""
+    """Return the `Round` of the lower interface, from that of the upper one."""
     attempt = refined.attempt
     mesh, lagged = attempt.problem.meshes[1], attempt.lagged
     return replace(
@@ -264,7 +264,7 @@ def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
 
 
 def _as_problem(attempt: PlateAttempt, side: int) -> ContactProblem:
-    """Return what a bare nip on the mesh of one interface would be."""
+    """Return the contact problem that a bare nip would have on the mesh of one interface."""
     problem, mesh = attempt.problem, attempt.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
     control = Control(

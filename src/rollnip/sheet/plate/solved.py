@@ -1,4 +1,4 @@
-"""The flow of one solution with a sheet that resists bending."""
+"""Solve a nip with a plate and assemble the result."""
 
 from __future__ import annotations
 
@@ -32,32 +32,32 @@ from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.said import with_errors_said
 from rollnip.validity import StrainSizes, validity_reservations
 
-_HARDLY = 0.01  # violation of the conditions that moves of the ends make
+_HARDLY = 0.01  # residual of the conditions that moving zone ends alone may cause
 
 
 def solve_plate(
     nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[Reservation, ...]]
 ) -> PlateSolution | None:
-    """Solve the steady rolling of two rollers with a sheet that resists bending.
+    """Solve the steady rolling of two rollers with a sheet whose bending stiffness is included.
 
     Parameters
     ----------
     nip : with a sheet.
     model : geometry "linear", "curved" or one of finite strain.
-    cache : influence functions of solves before.
-    record : version of rollnip, and what there is to say of the model.
+    cache : influence functions from earlier solves.
+    record : version of rollnip, and reservations on the model.
 
     Returns
     -------
-    None where the sheet leaves it open whether stiffness is counted, and no solution with it is
-    verified.
+    None where the sheet does not ask for its stiffness to be included, and no solution with it can
+    be verified.
 
     Raises
     ------
     InvalidInputError
-        where friction cannot carry what is asked for.
+        where friction cannot carry what is prescribed.
     ConvergenceError
-        where stiffness is asked for and no solution was found at all.
+        where the stiffness is asked for and no solution was found at all.
     """
     start, (version, said) = perf_counter(), record
     assert nip.sheet is not None
@@ -79,7 +79,7 @@ def solve_plate(
 
 
 def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
-    """Return the spreading length up to which a sheet bends freely, if nothing is said [mm]."""
+    """Return the spreading length up to which a sheet is a membrane by default [mm]."""
     half_width = half_width_guess(nip, pair_kernels(nip, model.geometry, cache))
     return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
@@ -91,9 +91,10 @@ def _rests(refined: Refined[PlateAttempt] | None) -> bool:
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[Model, PairKernels, Refined[PlateAttempt] | None, tuple[Reservation, ...]]:
-    """Return the model solved, influence functions, the solution, and why it is another model.
+    """Return the solved model, influence functions, the solution, and reservations on the model.
 
-    Where none rests, the first one that there is; None where there is none at all.
+    Simpler geometries are tried until one has a converged solution. Where none has, the first
+    solution is returned; None where there is no solution at all.
     """
     tried: list[tuple[Model, PairKernels, Refined[PlateAttempt] | None]] = []
     now: Model | None = model
@@ -112,7 +113,7 @@ def _refined(
 def _attempt(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[PairKernels, Refined[PlateAttempt] | None]:
-    """Return influence functions and the solution in one geometry; None where there is none."""
+    """Return influence functions and the solution in one geometry; None where none exists."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
@@ -188,7 +189,7 @@ def _verdict(
 
 
 def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
-    """Return one side for its verdict: without error of a peak that is as well known as allowed."""
+    """Return one side for its verdict, without the error of a peak that is within its own limit."""
     peak = final.error.peak_pressure
     if peak > Bending(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
         return final

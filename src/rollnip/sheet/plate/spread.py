@@ -1,4 +1,4 @@
-"""Tractions on one interface as the sheet feels them at other places."""
+"""Piecewise-linear tractions on one interface, and the sheet's response to them at other places."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-_GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
-# Three Gauss points of a piece, over its length, and the integrals by them of what goes with the
-# value at either end: exact for the moments of straight lines.
+_GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # Gauss points of an interval of length 1
+# Three Gauss points of an interval of length 1, and their weights for the linear functions that are
+# 1 at either end: exact for the moments of linear tractions.
 _PLACES, _SHARES = 0.5 + sqrt(0.15) * np.array([-1.0, 0.0, 1.0]), np.array([5.0, 8.0, 5.0]) / 18.0
 _OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
-_FEEBLE = 33.0  # of the mesh: length from which tension hardly straightens the sheet within it
+_FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the sheet within the mesh
 
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """Tractions as the sheet feels them at other places, per value of each of their sets.
+    """Piecewise-linear tractions in one or more sets, whose effect on the sheet can be evaluated.
 
     Attributes
     ----------
-    sheet, plate : what they act on.
-    nodes : (M + 1,) between which they are straight lines [mm].
-    lines : (M + 1, n) their values at the nodes.
-    beyond : (4, M + 1, n) int_x^inf s^k/k! t ds from the nodes on [mm^(k + 1)].
+    sheet, plate : on which they act.
+    nodes : (M + 1,) between which they are linear [mm].
+    lines : (M + 1, n) nodal values of n sets.
+    beyond : (4, M + 1, n) int_x^inf s^k/k! t ds from each node to infinity [mm^(k + 1)].
     """
 
     sheet: Sheet
@@ -45,9 +45,9 @@ class Spread:
 
     @classmethod
     def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None) -> Spread:
-        """Return the spread of nodal tractions on a mesh.
+        """Return the unit tractions of all nodes of a mesh.
 
-        ``along``: factors at its finer nodes, such as ds/dx; None: all 1.
+        ``along``: factors at its fine nodes, such as ds/dx; None: all 1.
         """
         nodes, acting = mesh.fine.nodes, mesh.fine.acting
         assert acting is not None
@@ -58,7 +58,7 @@ class Spread:
 
     @classmethod
     def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
-        """Return the spread of tractions given at nodes, (M + 1, n)."""
+        """Return tractions given by nodal values, (M + 1, n)."""
         first, last = _moments(nodes[:-1], np.diff(nodes))[..., None]
         pieces = first * lines[:-1] + last * lines[1:]
         beyond = np.zeros((4, *lines.shape))
@@ -66,7 +66,7 @@ class Spread:
         return cls(sheet, plate, nodes, lines, beyond)
 
     def of(self, values: Array) -> Spread:
-        """Return the spread of one set of tractions, of nodal values (n,), or of s sets (n, s)."""
+        """Return tractions for nodal values of the mesh, one set (n,) or s sets (n, s)."""
         sets = values.reshape(values.shape[0], -1)
         return replace(self, lines=self.lines @ sets, beyond=self.beyond @ sets)
 
@@ -81,7 +81,7 @@ class Spread:
         return np.asarray(self.beyond[1, 0])
 
     def moments_beyond(self, x: Array) -> Array:
-        """Return ``beyond`` from some places on, (4, m, n); exact."""
+        """Return the integrals ``beyond`` from given places on, (4, m, n); exact."""
         inside = np.clip(x, self.nodes[0], self.nodes[-1])
         at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
         length = self.nodes[at + 1] - inside
@@ -92,18 +92,19 @@ class Spread:
         return np.asarray(out + self.beyond[:, at + 1])
 
     def bent(self, x: Array, beyond: Array) -> tuple[Array, Array, Array]:
-        """Return what loads do to the plate at some places, each (m, n).
+        """Return the bending of the plate at given places, with the tractions as loads.
 
         Parameters
         ----------
         x : (m,) places [mm].
-        beyond : what `moments_beyond` says of them.
+        beyond : `moments_beyond` of these places.
 
         Returns
         -------
-        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa].
+        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa], each
+        (m, n).
         """
-        # |x - s|^3/6 and its derivatives: twice what lies ahead, less all of it with its sign
+        # |x - s|^3/6 and its derivatives: twice the part ahead, less the signed total
         whole = self.beyond[:, :1]
         ahead = 2.0 * beyond - whole
         distances = about(x, ahead, 1)
@@ -128,7 +129,7 @@ class Spread:
         return yielding * height + sheared, yielding * slope, yielding * near
 
     def _decayed(self, x: Array) -> tuple[Array, Array]:
-        """Return int exp(-|x - s|/L) t ds of what lies behind and ahead of some places, (m, n)."""
+        """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
         nodes, lines, length = self.nodes, self.lines, self.plate.length
         inside = np.clip(x, nodes[0], nodes[-1])
         at = np.clip(np.searchsorted(nodes, inside, side="right") - 1, 0, nodes.size - 2)
@@ -153,25 +154,26 @@ class Spread:
         return out[0], out[1]
 
     def squeezed(self, x: Array, far: NDArray[np.bool_]) -> Array:
-        """Return how far a face gives way to the pressures towards the middle, (m, n) [mm/MPa].
+        """Return the displacement of a face towards the middle under pressures, (m, n) [mm/MPa].
 
-        ``far``: where it is the face opposite to that under the pressures; else that face itself.
+        ``far``: where it is the face opposite to that under the pressures, otherwise that face
+        itself.
         """
         nodes, lines = self.nodes, self.lines[1:-1]
         return squeezed(self.sheet, x, nodes, lines, (0.25, 0.25), opposite=far)
 
     def sheared(self, x: Array, far: NDArray[np.bool_]) -> Array:
-        """Return how far shears move a face along, beside tension and bending, (m, n) [mm/MPa].
+        """Return the tangential displacement of a face under shears, (m, n) [mm/MPa].
 
-        ``far``: see `squeezed`.
+        It excludes the displacement due to tension and bending. ``far``: see `squeezed`.
         """
         return sheared(self.sheet, x, self.nodes, self.lines[1:-1], far)
 
     def warped(self, x: Array, far: NDArray[np.bool_], beyond: Array) -> Array:
-        """Return int g t ds from some places on, (m, n) [mm]; see `rollnip.sheet.warp`.
+        """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.warp`.
 
-        g t is the stretch of the face by pressures t, beside bending; ``beyond``: what
-        `moments_beyond` says of the places; ``far``: see `squeezed`.
+        g t is the stretch of the face under pressures t, without bending; ``beyond``:
+        `moments_beyond` of the places; ``far``: see `squeezed`.
         """
         sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
         signs = np.where(far, -1.0, 1.0)
@@ -182,7 +184,7 @@ class Spread:
 
     @property
     def _points(self) -> tuple[Array, Array]:
-        """Return Gauss points (2 M,) [mm], and tractions there times their lengths (2 M, n)."""
+        """Return Gauss points (2 M,) [mm], and the tractions there times their weights (2 M, n)."""
         length, lines = np.diff(self.nodes), self.lines
         places = [self.nodes[:-1] + share * length for share in _GAUSS]
         forces = [
@@ -195,7 +197,7 @@ class Spread:
 def about(x: Array, moments: Array, order: int) -> Array:
     """Return int (s - x)^k/k! t ds, (m, n), from the moments int s^j/j! t ds, (4, m or 1, n).
 
-    k is the ``order``; moments count up to it.
+    k is the ``order``; moments up to that order are used.
     """
     out, back = moments[order], -x[:, None]
     power = np.ones(back.shape)
@@ -206,7 +208,7 @@ def about(x: Array, moments: Array, order: int) -> Array:
 
 
 def _moments(starts: Array, lengths: Array) -> Array:
-    """Return int s^k/k! t ds over pieces per value of straight lines at either end, (2, 4, m)."""
+    """Return int s^k/k! t ds over intervals per end value of a linear t, (2, 4, m)."""
     s = starts + _PLACES[:, None] * lengths
     square = 0.5 * s * s
     powers = np.stack([np.ones(s.shape), s, square, s * square / 3.0])

@@ -10,12 +10,12 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
-from rollnip.sheet.kind import CLOSELY
-from rollnip.sheet.membrane import Membrane
+from rollnip.sheet.formulation import CLOSELY
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.membrane.formulation import Membrane
+from rollnip.sheet.membrane.search import SheetSearch
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.said import relative_errors
-from rollnip.sheet.search import SheetSearch
-from rollnip.sheet.system import SIGNS
+from rollnip.sheet.status import relative_errors
 
 ALLOWED = 3.0  # times the claim, as for a bare nip (tests/properties)
 

@@ -10,7 +10,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import placing
 from rollnip.rolling.elements import AllOrders
-from rollnip.sheet import search
+from rollnip.sheet.membrane import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -13,10 +13,10 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.contact import Layout, State
-from rollnip.sheet.common import sheet_verdict
-from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.solved import _verdict
+from rollnip.sheet.checks import sheet_verdict
+from rollnip.sheet.plate.solve import _verdict
 from rollnip.sheet.plate.zones import PlateZones
+from rollnip.sheet.secant import Moves
 
 HERE = Path(__file__).parents[1]
 STORED = json.loads((HERE / "data" / "plate_direct.json").read_text(encoding="utf-8"))

@@ -10,8 +10,8 @@ from sheet_nips import RIGID, nip_with, paper
 import rollnip as rn
 from rollnip.contact import Layout, State, cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
-from rollnip.sheet.plate.attempt import added_to_peaks
-from rollnip.sheet.plate.sides import highest, side_mesh
+from rollnip.sheet.plate.interface import highest, side_mesh
+from rollnip.sheet.plate.iterate import added_to_peaks
 from rollnip.sheet.plate.zones import PlateZones
 
 

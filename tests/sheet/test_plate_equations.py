@@ -13,8 +13,8 @@ import rollnip as rn
 from rollnip.contact import cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
 from rollnip.sheet.plate.bending import Plate
-from rollnip.sheet.plate.sides import side_mesh
-from rollnip.sheet.plate.spread import Spread, about
+from rollnip.sheet.plate.interface import side_mesh
+from rollnip.sheet.plate.loads import Spread, about
 
 LINEAR = rn.Model(geometry="linear")
 BOARD = replace(rn.Sheet.usual("board"), bending=True, tension_in=0.3, tension_out=0.2)

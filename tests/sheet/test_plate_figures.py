@@ -5,7 +5,7 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.plate.kind import Bending
+from rollnip.sheet.plate.formulation import Bending
 from rollnip.sheet.plate.search import PlateSearch
 
 NARROW = 19020  # on a bare roller, where its contact is a quarter as wide as the sheet is thick

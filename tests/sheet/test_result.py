@@ -10,9 +10,9 @@ from sheet_nips import SOFT, nip_with, paper
 import rollnip as rn
 from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
-from rollnip.sheet.common import sheet_verdict
+from rollnip.sheet.checks import sheet_verdict
 from rollnip.sheet.figures import SheetFigures, scales
-from rollnip.sheet.membrane import Membrane
+from rollnip.sheet.membrane.formulation import Membrane
 from rollnip.sheet.refine import with_errors_of_powers
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate

@@ -7,6 +7,6 @@ own contact and pressure.
 
 from rollnip.sheet.result import Grip, SheetProfiles, SheetResult
 from rollnip.sheet.solution import SheetSolution
-from rollnip.sheet.solved import solve_sheet
+from rollnip.sheet.solve import solve_sheet
 
 __all__ = ["Grip", "SheetProfiles", "SheetResult", "SheetSolution", "solve_sheet"]

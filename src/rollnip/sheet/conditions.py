@@ -11,8 +11,8 @@ from rollnip._largest import largest
 from rollnip.contact import ContactState, State
 from rollnip.nip import Nip
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.attempt import AnyAttempt
-from rollnip.sheet.system import SIGNS
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.iterate import AnyAttempt
 
 Array = NDArray[np.float64]
 

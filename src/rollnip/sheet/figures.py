@@ -13,9 +13,9 @@ from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.iterate import AnyAttempt
 from rollnip.sheet.powers import SheetPowers
-from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
 

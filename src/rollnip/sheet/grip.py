@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Side
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.result import Grip
-from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
 

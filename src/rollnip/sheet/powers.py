@@ -21,7 +21,7 @@ from rollnip.model import Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.iterate import AnyAttempt
 
 Array = NDArray[np.float64]
 Pulls = Sequence[tuple[float, float]]

@@ -10,11 +10,11 @@ import numpy as np
 
 from rollnip.model import Geometry, Model
 from rollnip.rolling import PairKernels
-from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
-from rollnip.sheet.kind import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
+from rollnip.sheet.formulation import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
+from rollnip.sheet.iterate import AnyAttempt
 from rollnip.sheet.powers import off_the_moments, slip_works
 
 _GROWTH = 1.6  # largest growth of the number of elements from size to size

@@ -21,12 +21,15 @@ from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
-from rollnip.sheet.common import not_prescribed
+from rollnip.sheet.checks import not_prescribed
 from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
-from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
-from rollnip.sheet.lagged import sheet_rate
-from rollnip.sheet.membrane import traction_slope
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.membrane.formulation import traction_slope
+from rollnip.sheet.membrane.search import SheetAttempt
+from rollnip.sheet.membrane.system import SheetState, sheet_displacements
+from rollnip.sheet.neglected_bending import left_by_bending_freely, wrapped_length
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
@@ -37,9 +40,7 @@ from rollnip.sheet.result import (
     slip_share_of,
     zones_of,
 )
-from rollnip.sheet.search import SheetAttempt
 from rollnip.sheet.squeeze import squeezed
-from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]

@@ -1,8 +1,8 @@
 """Search for the zones of a plate: states and ends of stick and slip, on meshes of one size.
 
 The search starts with zones from meshes that extend beyond the contacts, where the states of all
-nodes are found at once (`first`). Edges and transitions then lie at nodes of the interface to which
-they belong, and the tractions at the first nodes beside them show where they belong
+nodes are found at once (`initial_zones`). Edges and transitions then lie at nodes of the interface
+to which they belong, and the tractions at the first nodes beside them show where they belong
 (`contact.Layout.moved`). Where a solution violates its conditions, the nodal states are determined
 again.
 """
@@ -23,30 +23,30 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.kind import CLOSELY
-from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
-from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.attempt import (
+from rollnip.sheet.formulation import CLOSELY
+from rollnip.sheet.membrane.search import SHORTEST_LAYER
+from rollnip.sheet.plate.complementarity import solve_node_by_node
+from rollnip.sheet.plate.initial_zones import FirstZones
+from rollnip.sheet.plate.interface import path_ratio, side_mesh
+from rollnip.sheet.plate.iterate import (
     PlateAttempt,
     added_to_peaks,
     carried,
     pulls_at_edges,
     shear_over,
 )
-from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.first import FirstZones
-from rollnip.sheet.plate.lagged import (
+from rollnip.sheet.plate.lagged_terms import (
     change_of,
     first_lagged,
     has_none,
     lagged_terms,
 )
-from rollnip.sheet.plate.node_by_node import solve_node_by_node
-from rollnip.sheet.plate.sides import path_ratio, side_mesh
+from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.search import SHORTEST_LAYER
+from rollnip.sheet.secant import Moves
 
 Array = NDArray[np.float64]
 

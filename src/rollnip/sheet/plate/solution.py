@@ -20,14 +20,14 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.plate.attempt import PlateAttempt
-from rollnip.sheet.plate.curved import direction_of
-from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.sides import SIGNS, values_at
+from rollnip.sheet.membrane.system import SheetState
+from rollnip.sheet.plate.curved_path import direction_of
+from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.plate.iterate import PlateAttempt
+from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
-from rollnip.sheet.system import SheetState
 
 Array = NDArray[np.float64]
 

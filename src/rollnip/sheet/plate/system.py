@@ -26,12 +26,18 @@ from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.plate.bending import Plate
-from rollnip.sheet.plate.curved import CurvedLoad
-from rollnip.sheet.plate.matrix import Pair, gaps_and_creeps_of
-from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, stretch_by, values_at
-from rollnip.sheet.plate.spread import Spread, about
-from rollnip.sheet.system import frictions_of
+from rollnip.sheet.plate.curved_path import CurvedLoad
+from rollnip.sheet.plate.interface import (
+    SIGNS,
+    curvatures,
+    own_displacements,
+    stretch_by,
+    values_at,
+)
+from rollnip.sheet.plate.loads import Spread, about
+from rollnip.sheet.plate.matrices import Pair, gaps_and_creeps_of
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]

@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import LONGEST_MOVE, SideZones, held, without_slivers_in
+from rollnip.sheet.zones import LONGEST_MOVE, OF_TRANSITIONS, SideZones, held, without_slivers_in
 
 Array = NDArray[np.float64]
 
 _SLIVER = 1e-4  # over the width: shorter zones are removed
-_OF_TRANSITIONS = 10.0  # factor of the squared distance of transitions, compared to edges
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +73,7 @@ class PlateZones(SideZones):
         parts = []
         for one, two in zip(self.sides, other.sides, strict=True):
             share = np.abs(one.breaks - two.breaks) / two.width
-            share[1:-1] *= _OF_TRANSITIONS * share[1:-1]
+            share[1:-1] *= OF_TRANSITIONS * share[1:-1]
             parts.append(float(share.max()))
         return max(parts)
 

@@ -14,9 +14,9 @@ from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
-from rollnip.sheet.plate.curved import CurvedLoad, curved_load, is_stiff, places_along
-from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, path_ratio
+from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.plate.curved_path import CurvedLoad, curved_load, is_stiff, places_along
+from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
@@ -123,7 +123,7 @@ def _curved_change(
 def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState) -> float:
     """Return the relative residual of a solution under other lagged terms.
 
-    See `rollnip.sheet.lagged.missed`.
+    See `rollnip.sheet.membrane.lagged_terms.missed`.
     """
     nip, parts = problem.nip, [0.0]
     creepage = max(map(abs, state.creepages))
@@ -140,9 +140,9 @@ def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: Pla
 def pull_of(
     problem: PlateProblem, geometry: Geometry, state: PlateState, side: int, u: Displacements
 ) -> float:
-    """Return int q lambda ds of one roller [N/mm], see `rollnip.sheet.lagged.pulls_of`.
+    """Return int q lambda ds of one roller [N/mm]; ``u`` at nodes[1:].
 
-    ``u``: at nodes[1:].
+    See `rollnip.sheet.membrane.lagged_terms.pulls_of`.
     """
     nip, mesh = problem.nip, problem.meshes[side]
     x, fine = mesh.fine.nodes[1:], mesh.finer(u)

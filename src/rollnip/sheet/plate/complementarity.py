@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, interior_point
 from rollnip.nip import LineLoad
-from rollnip.sheet.node_by_node import parted
-from rollnip.sheet.plate.factorised import FURTHER, equations, given
-from rollnip.sheet.plate.matrix import Pair
+from rollnip.sheet.friction import parted
+from rollnip.sheet.plate.linear_system import FURTHER, equations, given
+from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
 Array = NDArray[np.float64]

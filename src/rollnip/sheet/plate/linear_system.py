@@ -10,9 +10,9 @@ from scipy.linalg import lapack
 
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.plate.matrix import Pair
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
-from rollnip.sheet.system import SIGNS
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ import rollnip as rn
 from rollnip.finite import NoEquilibriumError, columns, strip
 from rollnip.rolling import surface_depths
 from rollnip.rolling.elements import AllOrders
-from rollnip.sheet import all_orders
-from rollnip.sheet.lagged import creep_in_stick, pressed_gap
+from rollnip.sheet import finite_strain
+from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap
 
 ALL, SECOND = rn.Model(), rn.Model(geometry="second")
 FIGURES = ("approach", "nip_width", "peak_pressure", "creepage")
@@ -147,7 +147,7 @@ def _driven_hard(load, shares, monkeypatch, *, bending=False):
 
     The covering is stretched to four times its length at the edge that slips.
     """
-    monkeypatch.setattr(all_orders, "SHARES_KEPT", shares)
+    monkeypatch.setattr(finite_strain, "SHARES_KEPT", shares)
     nip = nip_with(
         paper(bending=bending),
         lower=RIGID,

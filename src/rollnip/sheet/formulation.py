@@ -7,8 +7,8 @@ from typing import Any, Protocol, TypeVar
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
-from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.figures import SheetFigures
+from rollnip.sheet.iterate import AnyAttempt
 from rollnip.sheet.powers import Pulls
 
 S = TypeVar("S", bound=AnyAttempt)

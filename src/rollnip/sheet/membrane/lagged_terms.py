@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._largest import largest
-from rollnip.contact import State, States
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
@@ -93,30 +93,6 @@ def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -
     for states, drift in zip(state.both_states, new.offsets - old.offsets, strict=True):
         parts.append(creep_in_stick(drift, states) / (2.0 * half * scale))
     return largest(*parts)
-
-
-def pressed_gap(gap: Array, pressure: Array) -> float:
-    """Return the largest gap under pressure, weighted by pressure over peak pressure [mm]."""
-    peak = float(np.abs(pressure).max())
-    return float(np.abs(gap * pressure).max()) / peak if peak > 0.0 else 0.0
-
-
-def creep_in_stick(creep: Array, states: States) -> float:
-    """Return the largest distance that surfaces creep within a run of sticking nodes [mm].
-
-    ``creep``, ``states``: of the intervals, and of the nodes at which they begin.
-    """
-    sticks = states == State.STICK
-    along = np.concatenate([[0.0], np.cumsum(np.where(sticks, creep, 0.0))])
-    begins = np.flatnonzero(sticks & ~np.append(False, sticks[:-1]))
-    ends = np.flatnonzero(sticks & ~np.append(sticks[1:], False)) + 1
-    runs = (along[begin : end + 1] for begin, end in zip(begins, ends, strict=True))
-    return max((float(np.ptp(run)) for run in runs), default=0.0)
-
-
-def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:
-    """Return V_s/V."""
-    return 1.0 + 0.5 * (creepage_lower - creepage_upper)
 
 
 def path_turn(problem: SheetProblem, u: Displacements) -> Array:

@@ -12,12 +12,13 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
-from rollnip.sheet.factorised import Factorised
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.lagged import change_of, lagged_terms, missed, path_turn, pulls_of, sheet_rate
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.membrane.lagged_terms import change_of, lagged_terms, missed, path_turn, pulls_of
+from rollnip.sheet.membrane.linear_system import Factorised
+from rollnip.sheet.membrane.search import SheetAttempt, SheetSearch, overlap
+from rollnip.sheet.membrane.system import SheetMesh
 from rollnip.sheet.powers import Pulls, sheet_powers
-from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap
-from rollnip.sheet.system import SheetMesh
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import isfinite
 from typing import TypeVar
 
-from rollnip.sheet.common import not_prescribed
+from rollnip.sheet.checks import not_prescribed
 from rollnip.sheet.figures import NAMES, scales
 from rollnip.sheet.solution import SheetSolution
 from rollnip.verdict import WORDS, left_open

@@ -32,16 +32,14 @@ from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.attempt import Attempt
+from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
-from rollnip.sheet.factorised import Factorised
-from rollnip.sheet.kind import FIRST_SIZE
-from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
-from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
-from rollnip.sheet.moves import Moves
-from rollnip.sheet.node_by_node import next_slip, slipping, solve_node_by_node
-from rollnip.sheet.squeeze import squeezed
-from rollnip.sheet.system import (
+from rollnip.sheet.formulation import FIRST_SIZE
+from rollnip.sheet.iterate import Attempt
+from rollnip.sheet.membrane.complementarity import next_slip, slipping, solve_node_by_node
+from rollnip.sheet.membrane.lagged_terms import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.membrane.linear_system import Factorised
+from rollnip.sheet.membrane.system import (
     Lagged,
     SheetMesh,
     SheetProblem,
@@ -49,7 +47,9 @@ from rollnip.sheet.system import (
     sheet_displacements,
     sheet_mesh_on,
 )
-from rollnip.sheet.zones import Zones
+from rollnip.sheet.membrane.zones import Zones
+from rollnip.sheet.secant import Moves
+from rollnip.sheet.squeeze import squeezed
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

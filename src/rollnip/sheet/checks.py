@@ -13,10 +13,10 @@ from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.no_nip import impossible
 from rollnip.reservation import Reservation, instead_of
 from rollnip.rolling import Round
-from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.figures import SheetFigures, scales
+from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.iterate import AnyAttempt
 from rollnip.sheet.refine import Refined
-from rollnip.sheet.system import frictions_of
 from rollnip.verdict import missed, verdict, violated
 
 _CLEARLY = 1.2  # over the limit of friction; the torque also balances the pressure's moment

@@ -16,9 +16,8 @@ from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.rolling.assemble import SecondOrder
-from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
-from rollnip.sheet.common import (
+from rollnip.sheet.checks import (
     half_width_with_sheet,
     may_slide_at_any_speed,
     pushed,
@@ -28,12 +27,13 @@ from rollnip.sheet.common import (
     solved_instead,
     tension_of_curved,
 )
-from rollnip.sheet.membrane import Membrane
-from rollnip.sheet.plate.solved import longest_freely, solve_plate
+from rollnip.sheet.finite_strain import solve_by_iteration
+from rollnip.sheet.membrane.formulation import Membrane
+from rollnip.sheet.membrane.search import SheetAttempt
+from rollnip.sheet.plate.solve import longest_freely, solve_plate
 from rollnip.sheet.refine import Refined, refine
-from rollnip.sheet.said import with_errors_said
-from rollnip.sheet.search import SheetAttempt
 from rollnip.sheet.solution import SheetSolution
+from rollnip.sheet.status import with_errors_said
 from rollnip.validity import StrainSizes, validity_reservations
 
 # Largest relative change of a width over the ratio of bending length to nip width, among the nips

@@ -32,13 +32,12 @@ from rollnip.nip import Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.matrices import Integrals, SheetPath, influence, stable
+from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.membrane.matrices import Integrals, SheetPath, influence, stable
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-SIGNS = np.array([0.0, 0.0, 1.0, -1.0])
-"""Sign of the shear for each state of a node, in the order of `State`."""
 _TINY = 1e-12  # mm/MPa
 
 
@@ -288,8 +287,3 @@ class SheetProblem:
     def displacements(self, state: SheetState, _: int = 0) -> Displacements:
         """Return the displacements of both rollers at nodes[1:]."""
         return self.mesh.displacements(state)
-
-
-def frictions_of(nip: Nip) -> tuple[float, float]:
-    """Return the friction coefficients of the sheet on the upper and on the lower roller."""
-    return nip.friction_on("upper"), nip.friction_on("lower")

@@ -15,9 +15,8 @@ from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
-from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED
-from rollnip.sheet.common import (
+from rollnip.sheet.checks import (
     half_width_with_sheet,
     pushed,
     require_grip,
@@ -25,11 +24,12 @@ from rollnip.sheet.common import (
     solved_instead,
     tension_of_curved,
 )
-from rollnip.sheet.plate.attempt import PlateAttempt
-from rollnip.sheet.plate.kind import Bending
+from rollnip.sheet.finite_strain import solve_by_iteration
+from rollnip.sheet.plate.formulation import Bending
+from rollnip.sheet.plate.iterate import PlateAttempt
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.refine import Refined, refine
-from rollnip.sheet.said import with_errors_said
+from rollnip.sheet.status import with_errors_said
 from rollnip.validity import StrainSizes, validity_reservations
 
 _HARDLY = 0.01  # residual of the conditions that moving zone ends alone may cause

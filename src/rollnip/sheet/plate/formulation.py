@@ -13,12 +13,12 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
-from rollnip.sheet.lagged import sheet_rate
-from rollnip.sheet.plate.attempt import PlateAttempt, overlap
-from rollnip.sheet.plate.curved import direction_of
-from rollnip.sheet.plate.lagged import change_of, lagged_terms, missed, pull_of
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.plate.curved_path import direction_of
+from rollnip.sheet.plate.interface import SIGNS, highest
+from rollnip.sheet.plate.iterate import PlateAttempt, overlap
+from rollnip.sheet.plate.lagged_terms import change_of, lagged_terms, missed, pull_of
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.plate.sides import SIGNS, highest
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.powers import Pulls, sheet_powers
 

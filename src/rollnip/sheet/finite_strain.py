@@ -32,8 +32,8 @@ from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
-from rollnip.sheet.attempt import AnyAttempt
-from rollnip.sheet.kind import CLOSELY, ROUGHLY, S, SheetKind
+from rollnip.sheet.formulation import CLOSELY, ROUGHLY, S, SheetKind
+from rollnip.sheet.iterate import AnyAttempt
 from rollnip.sheet.powers import smooth_works
 from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
 

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.plate.sides import SIGNS, stretch_by
-from rollnip.sheet.plate.spread import Spread, about
+from rollnip.sheet.plate.interface import SIGNS, stretch_by
+from rollnip.sheet.plate.loads import Spread, about
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]

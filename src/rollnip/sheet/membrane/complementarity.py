@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.factorised import Factorised
-from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.friction import parted
+from rollnip.sheet.membrane.linear_system import Factorised
+from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
@@ -151,15 +152,3 @@ def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Ar
     rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
     highest = depth / rise if rise > 0.0 else depth / float(np.abs(pressed).max())
     return highest * np.maximum(ellipse, _LEAST), highest
-
-
-def parted(states: States, shear: Array) -> States:
-    """Return states of one interface with a sticking node wherever slip reverses its sign.
-
-    It is the one of the two nodes with less shear. ``states`` is modified in place.
-    """
-    size = np.abs(shear)
-    for i in np.flatnonzero((states[:-1] > State.STICK) & (states[1:] > State.STICK)):
-        if states[i] != states[i + 1] and states[i] > State.STICK:
-            states[i + int(size[i + 1] < size[i])] = State.STICK
-    return states

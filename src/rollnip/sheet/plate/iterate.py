@@ -14,10 +14,10 @@ from rollnip.influence import displacement_under
 from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
-from rollnip.sheet.plate.curved import CurvedLoad, places_along
-from rollnip.sheet.plate.sides import SIGNS
+from rollnip.sheet.iterate import Attempt
+from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
+from rollnip.sheet.plate.interface import SIGNS
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 

@@ -10,7 +10,8 @@ from scipy.linalg import lapack
 
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.system import SIGNS, Lagged, SheetProblem, SheetState
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 

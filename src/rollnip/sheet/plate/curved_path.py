@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.sheet.bending import COUNTED, bending_length
-from rollnip.sheet.plate.sides import SIGNS, values_at
-from rollnip.sheet.plate.spread import Spread
+from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.plate.loads import Spread
 
 if TYPE_CHECKING:
     from rollnip.sheet.plate.system import PlateProblem, PlateState

@@ -17,9 +17,9 @@ from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.sheet.plate.lagged import first_lagged, lagged_terms
-from rollnip.sheet.plate.node_by_node import Edges, solve_node_by_node
-from rollnip.sheet.plate.sides import side_mesh
+from rollnip.sheet.plate.complementarity import Edges, solve_node_by_node
+from rollnip.sheet.plate.interface import side_mesh
+from rollnip.sheet.plate.lagged_terms import first_lagged, lagged_terms
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 

@@ -12,8 +12,8 @@ from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
 from rollnip.sheet.formulation import CLOSELY
 from rollnip.sheet.friction import SIGNS
-from rollnip.sheet.membrane.formulation import Membrane
-from rollnip.sheet.membrane.search import SheetSearch
+from rollnip.sheet.membrane.formulation import MembraneFormulation
+from rollnip.sheet.membrane.search import MembraneSearch
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.status import relative_errors
 
@@ -36,13 +36,13 @@ def _errors(number, geometry=None):
         return None
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
-    search = SheetSearch(case.nip, model, solution.kernels)
+    search = MembraneSearch(case.nip, model, solution.kernels)
     fine = search.placed(
         refined.attempt.zones, round(2.2 * solution.solver.elements), refined.attempt, CLOSELY
     )
     if not fine.settled:
         return None
-    (truth,) = Membrane(case.nip).figures(fine, model.geometry)
+    (truth,) = MembraneFormulation(case.nip).figures(fine, model.geometry)
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale

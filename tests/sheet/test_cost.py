@@ -19,7 +19,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def counted(monkeypatch):
     """Meshes that are assembled, by their nodes: bare, and with a sheet."""
     meshes = {"bare": [], "sheet": []}
-    for module, name, kind in ((placing, "mesh_on", "bare"), (search, "sheet_mesh_on", "sheet")):
+    for module, name, kind in ((placing, "mesh_on", "bare"), (search, "membrane_mesh_on", "sheet")):
         assemble = getattr(module, name)
 
         def count(nodes, *more, kind=kind, assemble=assemble):
@@ -57,13 +57,13 @@ def test_two_sizes_of_mesh_suffice_for_half_of_the_nips_without_memory():
 
 
 def test_what_never_settles_is_given_up_after_three_sizes_of_mesh(monkeypatch):
-    sizes, placed = [], search.SheetSearch.placed
+    sizes, placed = [], search.MembraneSearch.placed
 
     def restless(self, zones, count, *more):
         sizes.append(count)
         return replace(placed(self, zones, count, *more), settled=False)
 
-    monkeypatch.setattr(search.SheetSearch, "placed", restless)
+    monkeypatch.setattr(search.MembraneSearch, "placed", restless)
     assert not rn.solve(random_case(17).nip, rn.Model(geometry="curved")).converged
     assert len(sizes) == 3
 

@@ -10,7 +10,7 @@ from sheet_nips import RIGID, nip_with, paper
 import rollnip as rn
 from rollnip.contact import Layout, State, cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
-from rollnip.sheet.plate.interface import highest, side_mesh
+from rollnip.sheet.plate.interface import highest, interface_mesh
 from rollnip.sheet.plate.iterate import added_to_peaks
 from rollnip.sheet.plate.zones import PlateZones
 
@@ -21,7 +21,7 @@ def test_a_peak_on_few_elements_is_that_of_their_cubics(elements, lean):
     kernels = pair_kernels(nip_with(paper(bending=True)), "linear")
     counts = np.array([elements])
     nodes = cosine_nodes(np.array([0.0, 2.0]), counts)
-    mesh = side_mesh(nodes, subdivided(nodes, counts), kernels, 0)
+    mesh = interface_mesh(nodes, subdivided(nodes, counts), kernels, 0)
 
     def pressure(x):
         return np.sqrt(np.maximum(x * (2.0 - x), 0.0)) * (1.0 + lean * 0.25 * x**2)

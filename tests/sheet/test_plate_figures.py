@@ -5,7 +5,7 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.plate.formulation import Bending
+from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.search import PlateSearch
 
 NARROW = 19020  # on a bare roller, where its contact is a quarter as wide as the sheet is thick
@@ -26,7 +26,7 @@ def attempt():
 
 
 def figures(attempt):
-    return Bending(attempt.problem.nip).figures(attempt, "linear")[0]
+    return PlateFormulation(attempt.problem.nip).figures(attempt, "linear")[0]
 
 
 def test_the_loss_of_friction_hardly_feels_where_slip_begins(attempt):

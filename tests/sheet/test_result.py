@@ -12,7 +12,7 @@ from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
 from rollnip.sheet.checks import sheet_verdict
 from rollnip.sheet.figures import SheetFigures, scales
-from rollnip.sheet.membrane.formulation import Membrane
+from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.refine import with_errors_of_powers
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
@@ -139,7 +139,7 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     assert refined.figures.friction_upper > 10.0 * claimed
     attempt = refined.attempt
     ahead = replace(attempt.state, creepage=-attempt.state.creepage - 0.1)
-    kind = Membrane(solution.nip)
+    kind = MembraneFormulation(solution.nip)
     turned = with_errors_of_powers(
         kind, replace(refined, attempt=replace(attempt, state=ahead)), "linear"
     ).errors

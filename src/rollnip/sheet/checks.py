@@ -15,7 +15,7 @@ from rollnip.reservation import Reservation, instead_of
 from rollnip.rolling import Round
 from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.friction import frictions_of
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.refine import Refined
 from rollnip.verdict import missed, verdict, violated
 
@@ -62,7 +62,7 @@ def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
         raise InvalidInputError(_slips_through("torque_lower", "upper", upper, limit))
 
 
-def require_grip(nip: Nip, refined: Refined[AnyAttempt]) -> None:
+def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
     """Raise where the prescribed traction or torque exceeds the friction of either interface."""
     sheet, load = nip.sheet, refined.figures.load
     assert sheet is not None
@@ -106,7 +106,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 
 
 def sheet_verdict(
-    nip: Nip, model: Model, refined: Refined[AnyAttempt], final: Round
+    nip: Nip, model: Model, refined: Refined[AnyIterate], final: Round
 ) -> tuple[bool, str]:
     """Return whether the solution is valid, and its status: a remedy, or its beginning if valid."""
     if not refined.attempt.settled:
@@ -139,7 +139,7 @@ def sheet_verdict(
     )
 
 
-def creepage_errors(nip: Nip, refined: Refined[AnyAttempt]) -> tuple[float, float]:
+def creepage_errors(nip: Nip, refined: Refined[AnyIterate]) -> tuple[float, float]:
     """Return the estimated relative errors of the creepages of both rollers against the sheet."""
     upper, lower = (refined.errors.values[5:7] / scales(nip, refined.figures)[5:7]).tolist()
     return upper, lower

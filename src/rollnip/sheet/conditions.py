@@ -12,7 +12,7 @@ from rollnip.contact import ContactState, State
 from rollnip.nip import Nip
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.friction import SIGNS
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
 _OF_SLOPE = 0.05  # of the nip's slope: least creepage against which slip is measured
 
 
-def violation(attempt: AnyAttempt) -> float:
+def violation(attempt: AnyIterate) -> float:
     """Return the residual of the friction conditions, relative; the larger of both interfaces.
 
     Slip is measured against the creepage, or a twentieth of the nip's slope if that is larger.

@@ -14,7 +14,7 @@ from rollnip.nip import Nip
 from rollnip.rolling import Figures
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.friction import frictions_of
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import SheetPowers
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class SheetFigures:
     @classmethod
     def of(
         cls,
-        attempt: AnyAttempt,
+        attempt: AnyIterate,
         powers: SheetPowers,
         peak: tuple[float, float],
         tension: tuple[float, float],

@@ -32,8 +32,8 @@ from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
-from rollnip.sheet.formulation import CLOSELY, ROUGHLY, S, SheetKind
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.formulation import CLOSELY, ROUGHLY, Formulation, S
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_works
 from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
 
@@ -42,7 +42,7 @@ _COARSE = 20  # number of elements while the corrections still change
 
 
 def solve_by_iteration(
-    kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float
+    kind: Formulation[S], model: Model, kernels: PairKernels, half_width: float
 ) -> tuple[PairKernels, Refined[S]] | None:
     """Solve the contact with a sheet together with the corrections of both rollers, by iteration.
 
@@ -75,7 +75,7 @@ def solve_by_iteration(
     return None
 
 
-def _begun(kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float) -> S:
+def _begun(kind: Formulation[S], model: Model, kernels: PairKernels, half_width: float) -> S:
     """Return a first solution on a coarse mesh, without a previous one."""
     search = kind.search(model, kernels)
     count = round(elements_to_begin_with(kind, half_width, _COARSE))
@@ -94,7 +94,7 @@ class _Contact(Generic[S]):
     coarse. restarts : how often the search was restarted.
     """
 
-    kind: SheetKind[S]
+    kind: Formulation[S]
     model: Model
     attempt: S
     refined: Refined[S] | None = None
@@ -174,7 +174,7 @@ def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
     return replace(refined, cut=cut, cut_losses=losses)
 
 
-def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
+def _sides(attempt: AnyIterate) -> tuple[Acting, Acting]:
     """Return the tractions of the upper and of the lower roller."""
     out: list[Acting] = []
     for number, (mesh, sign) in enumerate(zip(attempt.problem.meshes, (1.0, -1.0), strict=True)):
@@ -183,13 +183,13 @@ def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
     return out[0], out[1]
 
 
-def _edges(attempt: AnyAttempt) -> tuple[float, float]:
+def _edges(attempt: AnyIterate) -> tuple[float, float]:
     """Return the outer edges of both contacts [mm]."""
     starts, stops = zip(*(side.edges for side in attempt.zones.sides), strict=True)
     return min(starts), max(stops)
 
 
-def _largest_strain(attempt: AnyAttempt) -> float:
+def _largest_strain(attempt: AnyIterate) -> float:
     """Return the largest surface strain in either contact, averaged over an element."""
     problem, state, most = attempt.problem, attempt.state, 0.0
     for side, mesh in enumerate(problem.meshes):

@@ -8,10 +8,10 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import Pulls
 
-S = TypeVar("S", bound=AnyAttempt)
+S = TypeVar("S", bound=AnyIterate)
 
 FIRST_SIZE = 24
 """Least number of elements of the first mesh size."""
@@ -19,7 +19,7 @@ ROUGHLY, CLOSELY = 0.5, 0.03
 """Allowed error of a zone end over tolerance times width, on the first mesh size and on others."""
 
 
-class SearchOfZones(Protocol[S]):
+class ZoneSearch(Protocol[S]):
     """A search for the zones of stick and slip in a nip with a sheet, for one model."""
 
     def begun(self, half_width: float, count: int) -> S:
@@ -39,7 +39,7 @@ class SearchOfZones(Protocol[S]):
         ...
 
 
-class SheetKind(Protocol[S]):
+class Formulation(Protocol[S]):
     """A nip with a sheet in one formulation, as a membrane or as a plate."""
 
     @property
@@ -47,7 +47,7 @@ class SheetKind(Protocol[S]):
         """The nip."""
         ...
 
-    def search(self, model: Model, kernels: PairKernels) -> SearchOfZones[S]:
+    def search(self, model: Model, kernels: PairKernels) -> ZoneSearch[S]:
         """Return the search for its zones."""
         ...
 

@@ -18,7 +18,7 @@ from rollnip.sheet.zones import SideZones
 Array = NDArray[np.float64]
 
 
-class Interfaces(Protocol):
+class InterfaceProblem(Protocol):
     """A discrete problem with one mesh per interface, the upper one first."""
 
     @property
@@ -49,7 +49,7 @@ class Interfaces(Protocol):
         ...
 
 
-class Tractions(Protocol):
+class InterfaceSolution(Protocol):
     """A solution of such a problem."""
 
     @property
@@ -67,7 +67,7 @@ class Tractions(Protocol):
         ...
 
 
-class Terms(Protocol):
+class LaggedTerms(Protocol):
     """Terms of the problem that depend on its solution, lagged by one iteration."""
 
     @property
@@ -82,13 +82,13 @@ class Terms(Protocol):
 
 
 ZonesT = TypeVar("ZonesT", bound=SideZones, covariant=True)
-ProblemT = TypeVar("ProblemT", bound=Interfaces, covariant=True)
-StateT = TypeVar("StateT", bound=Tractions, covariant=True)
-TermsT = TypeVar("TermsT", bound=Terms, covariant=True)
+ProblemT = TypeVar("ProblemT", bound=InterfaceProblem, covariant=True)
+StateT = TypeVar("StateT", bound=InterfaceSolution, covariant=True)
+TermsT = TypeVar("TermsT", bound=LaggedTerms, covariant=True)
 
 
 @dataclass(frozen=True)
-class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
+class Iterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
     """A solution for given zones of stick and slip, and how well the ends of these are placed.
 
     Attributes
@@ -121,5 +121,5 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
         return self.problem.creeps(self.state, self.lagged)
 
 
-AnyAttempt = Attempt[SideZones, Interfaces, Tractions, Terms]
+AnyIterate = Iterate[SideZones, InterfaceProblem, InterfaceSolution, LaggedTerms]
 """The iterate of a membrane or of a plate."""

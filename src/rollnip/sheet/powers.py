@@ -21,7 +21,7 @@ from rollnip.model import Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 Pulls = Sequence[tuple[float, float]]
@@ -67,7 +67,7 @@ class SheetPowers:
 
 
 def sheet_powers(
-    attempt: AnyAttempt, geometry: Geometry, pulls: Pulls, into_sheet: float
+    attempt: AnyIterate, geometry: Geometry, pulls: Pulls, into_sheet: float
 ) -> SheetPowers:
     """Return the losses and pulls of a solution."""
     problem, state = attempt.problem, attempt.state
@@ -87,7 +87,7 @@ def sheet_powers(
     )
 
 
-def slip_works(attempt: AnyAttempt, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
+def slip_works(attempt: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
     """Return the slip loss of each interface and its work along its own shear [N/mm].
 
     Short waves that the contact conditions do not follow change the stretch, and with it the work
@@ -103,7 +103,7 @@ def slip_works(attempt: AnyAttempt, geometry: Geometry, pulls: Pulls) -> list[tu
     return out
 
 
-def smooth_works(attempt: AnyAttempt) -> list[tuple[float, float]]:
+def smooth_works(attempt: AnyIterate) -> list[tuple[float, float]]:
     """Return `slip_works` for only the creep that the contact conditions follow [N/mm]."""
     problem, state, out = attempt.problem, attempt.state, []
     for side, mesh in enumerate(problem.meshes):
@@ -112,7 +112,7 @@ def smooth_works(attempt: AnyAttempt) -> list[tuple[float, float]]:
     return out
 
 
-def off_the_moments(attempt: AnyAttempt, spent: SheetPowers) -> Array:
+def off_the_moments(attempt: AnyIterate, spent: SheetPowers) -> Array:
     """Return the mismatch of torques and moments of the tractions over the radii, (2,) [N/mm].
 
     In equilibrium of all orders they are equal. Both come from finite-element displacements, and a

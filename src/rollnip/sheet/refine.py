@@ -13,8 +13,8 @@ from rollnip.rolling import PairKernels
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
-from rollnip.sheet.formulation import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
-from rollnip.sheet.iterate import AnyAttempt
+from rollnip.sheet.formulation import CLOSELY, FIRST_SIZE, ROUGHLY, Formulation, S, ZoneSearch
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import off_the_moments, slip_works
 
 _GROWTH = 1.6  # largest growth of the number of elements from size to size
@@ -26,7 +26,7 @@ _PER_LENGTH = 1.6  # elements of the first size per bending length in the width
 _MOST_FOR_LENGTH = 60.0  # upper limit of the first size for this reason
 _MOST_FAILURES = 3  # mesh sizes in a row whose zones do not converge
 _PEAK = NAMES.index("peak_pressure")
-T = TypeVar("T", bound=AnyAttempt, covariant=True)
+T = TypeVar("T", bound=AnyIterate, covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Refined(Generic[T]):
 
 
 def refine(
-    kind: SheetKind[S],
+    kind: Formulation[S],
     model: Model,
     kernels: PairKernels,
     half_width: float,
@@ -129,20 +129,20 @@ def refine(
 
 
 def elements_to_begin_with(
-    kind: SheetKind[S], half_width: float, least: float = FIRST_SIZE
+    kind: Formulation[S], half_width: float, least: float = FIRST_SIZE
 ) -> float:
     """Return a number of elements that resolves the bending length, at least ``least``."""
     lengths = 2.0 * half_width / kind.bending_length
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
-def _size_of(kind: SheetKind[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
+def _size_of(kind: Formulation[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
     """Return a solution in the form that the error estimates take."""
     return SizeOfMesh(count, kind.figures(attempt, geometry), attempt.zones)
 
 
 def _excess(
-    kind: SheetKind[S], model: Model, here: SizeOfMesh, errors: tuple[SheetFigures, ...]
+    kind: Formulation[S], model: Model, here: SizeOfMesh, errors: tuple[SheetFigures, ...]
 ) -> float:
     """Return the largest error over its allowed value, of the figures with a tolerance."""
     most = 0.0
@@ -156,9 +156,9 @@ def _excess(
 
 
 def _with_zones_of(
-    kind: SheetKind[S],
+    kind: Formulation[S],
     model: Model,
-    search: SearchOfZones[S],
+    search: ZoneSearch[S],
     attempt: S,
     history: list[SizeOfMesh],
     count: int,
@@ -198,7 +198,7 @@ def _next_count(count: float, excess: float) -> float:
 
 
 def _with_overlap(
-    kind: SheetKind[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
+    kind: Formulation[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
 ) -> Refined[S]:
     """Return a solution whose residual and errors include the check outside the contact."""
     left = max(refined.residual, kind.overlap(refined.attempt, kernels, geometry))
@@ -206,7 +206,7 @@ def _with_overlap(
 
 
 def with_errors_of_powers(
-    kind: SheetKind[S], refined: Refined[S], geometry: Geometry
+    kind: Formulation[S], refined: Refined[S], geometry: Geometry
 ) -> Refined[S]:
     """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
@@ -223,7 +223,7 @@ def with_errors_of_powers(
 
 
 def on_last_mesh(
-    kind: SheetKind[S], refined: Refined[S], attempt: S, kernels: PairKernels, left: float
+    kind: Formulation[S], refined: Refined[S], attempt: S, kernels: PairKernels, left: float
 ) -> Refined[S]:
     """Return a refined solution at finite strain with other lagged terms on its last mesh.
 

@@ -27,8 +27,8 @@ from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.membrane.formulation import traction_slope
-from rollnip.sheet.membrane.search import SheetAttempt
-from rollnip.sheet.membrane.system import SheetState, sheet_displacements
+from rollnip.sheet.membrane.search import MembraneIterate
+from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
 from rollnip.sheet.neglected_bending import left_by_bending_freely, wrapped_length
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
@@ -59,7 +59,7 @@ class SheetSolution(SmoothSolution):
     refined : the solution on the finest mesh and the estimated errors.
     """
 
-    refined: Refined[SheetAttempt] = field(kw_only=True, repr=False, compare=False)
+    refined: Refined[MembraneIterate] = field(kw_only=True, repr=False, compare=False)
 
     @property
     def sheet(self) -> SheetResult:
@@ -290,7 +290,7 @@ class SheetSolution(SmoothSolution):
         return zones_of(self.refined.attempt.zones.sides[side])
 
     @property
-    def _state(self) -> SheetState:
+    def _state(self) -> MembraneState:
         return self.refined.attempt.state
 
     @property
@@ -356,7 +356,7 @@ class SheetSolution(SmoothSolution):
         acting = np.stack(
             [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
         )
-        u = sheet_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
+        u = membrane_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
         if self.kernels.is_linear:
             return x, u
         held = self.kernels.held or mesh.second_fields(state)

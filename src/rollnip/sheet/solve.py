@@ -28,8 +28,8 @@ from rollnip.sheet.checks import (
     tension_of_curved,
 )
 from rollnip.sheet.finite_strain import solve_by_iteration
-from rollnip.sheet.membrane.formulation import Membrane
-from rollnip.sheet.membrane.search import SheetAttempt
+from rollnip.sheet.membrane.formulation import MembraneFormulation
+from rollnip.sheet.membrane.search import MembraneIterate
 from rollnip.sheet.plate.solve import longest_freely, solve_plate
 from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.solution import SheetSolution
@@ -134,7 +134,7 @@ def _bending_freely(
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, Refined[SheetAttempt], tuple[Reservation, ...]]:
+) -> tuple[Model, PairKernels, Refined[MembraneIterate], tuple[Reservation, ...]]:
     """Return the solved model, influence functions, the solution, and reservations on the model.
 
     Where the asked geometry has no settled solution, simpler ones are tried in turn.
@@ -171,21 +171,21 @@ def _none_found(nip: Nip) -> str:
 
 def _attempt(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined[SheetAttempt]] | None:
+) -> tuple[PairKernels, Refined[MembraneIterate]] | None:
     """Return influence functions and the solution in one geometry; None where none exists."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_by_iteration(Membrane(nip), model, kernels, half_width)
+        return solve_by_iteration(MembraneFormulation(nip), model, kernels, half_width)
     try:
-        return kernels, refine(Membrane(nip), model, kernels, half_width)
+        return kernels, refine(MembraneFormulation(nip), model, kernels, half_width)
     except np.linalg.LinAlgError:
         return None
 
 
-def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
+def as_round(nip: Nip, refined: Refined[MembraneIterate]) -> Round:
     """Return a membrane solution as the `Round` of a bare nip, with the shear of the upper side."""
     attempt, figures = refined.attempt, refined.figures
     mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
@@ -221,7 +221,7 @@ def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
     )
 
 
-def _reservations(nip: Nip, refined: Refined[SheetAttempt]) -> tuple[Reservation, ...]:
+def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:
     """Return the reservations on compression of the sheet and on its neglected bending."""
     length = spreading_length(nip)
     share = length / refined.figures.nip_width

@@ -10,15 +10,17 @@ from numpy.typing import NDArray
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.friction import parted
-from rollnip.sheet.membrane.linear_system import Factorised
-from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
+from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
 
 _LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
-def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetState:
+def solve_node_by_node(
+    problem: MembraneProblem, lagged: MembraneTerms, half_width: float
+) -> MembraneState:
     """Return the solution on a mesh whose nodal contact, stick and slip meet all conditions.
 
     It solves the complementarity problem of contact and friction by an interior-point method.
@@ -38,7 +40,7 @@ def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float)
     states[:, ~found.touches] = State.FREE
     for one, shear in zip(states, (above, below), strict=True):
         parted(one, shear)
-    return SheetState(
+    return MembraneState(
         states=states[0],
         pressure=np.where(found.touches, p, 0.0),
         shear=above,
@@ -53,8 +55,8 @@ def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float)
 
 
 def slipping(
-    problem: SheetProblem, state: SheetState, lagged: Lagged, slack: float
-) -> SheetState | None:
+    problem: MembraneProblem, state: MembraneState, lagged: MembraneTerms, slack: float
+) -> MembraneState | None:
     """Return the solution for a fixed contact with consistent stick and slip; None if not found.
 
     In each step all nodes take the states that creep and shear call for. Transitions move by a node
@@ -71,14 +73,14 @@ def slipping(
             return None
         tried.add(wanted.tobytes())
         try:
-            state = Factorised.of(problem, wanted).solved(lagged)
+            state = FactorisedMembrane.of(problem, wanted).solved(lagged)
         except np.linalg.LinAlgError:  # no node sticks any more
             return None
     return None
 
 
 def next_slip(
-    problem: SheetProblem, state: SheetState, creeps: tuple[Array, Array], slack: float
+    problem: MembraneProblem, state: MembraneState, creeps: tuple[Array, Array], slack: float
 ) -> States:
     """Return the states of both interfaces that follow from creep and shear, (2, n).
 
@@ -102,7 +104,7 @@ def next_slip(
 
 
 def _inequalities(
-    problem: SheetProblem, lagged: Lagged, half_width: float
+    problem: MembraneProblem, lagged: MembraneTerms, half_width: float
 ) -> tuple[Inequalities, Array]:
     """Return the complementarity problem of gaps and creeps on a mesh, and a starting point."""
     nip, n, weights = problem.nip, problem.mesh.inner.size, problem.mesh.weights
@@ -142,7 +144,7 @@ def _inequalities(
     )
 
 
-def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Array, float]:
+def _guessed(problem: MembraneProblem, half_width: float, depth: float) -> tuple[Array, float]:
     """Return an elliptic pressure that indents the rollers as deep as they overlap; its peak."""
     x, n = problem.mesh.inner, problem.mesh.inner.size
     middle = 0.5 * (x[0] + x[-1])

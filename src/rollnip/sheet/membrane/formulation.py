@@ -15,23 +15,23 @@ from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.membrane.lagged_terms import change_of, lagged_terms, missed, path_turn, pulls_of
-from rollnip.sheet.membrane.linear_system import Factorised
-from rollnip.sheet.membrane.search import SheetAttempt, SheetSearch, overlap
-from rollnip.sheet.membrane.system import SheetMesh
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
+from rollnip.sheet.membrane.search import MembraneIterate, MembraneSearch, overlap
+from rollnip.sheet.membrane.system import MembraneMesh
 from rollnip.sheet.powers import Pulls, sheet_powers
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Membrane:
+class MembraneFormulation:
     """A nip with a membrane: both interfaces share one contact and one pressure."""
 
     nip: Nip
 
-    def search(self, model: Model, kernels: PairKernels) -> SheetSearch:
+    def search(self, model: Model, kernels: PairKernels) -> MembraneSearch:
         """Return the search for its zones."""
-        return SheetSearch(self.nip, model, kernels)
+        return MembraneSearch(self.nip, model, kernels)
 
     @property
     def bending_length(self) -> float:
@@ -42,7 +42,7 @@ class Membrane:
         """Return the allowed relative error of the peak pressure."""
         return (model.tolerance,)
 
-    def figures(self, attempt: SheetAttempt, geometry: Geometry) -> tuple[SheetFigures]:
+    def figures(self, attempt: MembraneIterate, geometry: Geometry) -> tuple[SheetFigures]:
         """Return the figures of a solution."""
         problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
         peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
@@ -59,7 +59,7 @@ class Membrane:
             ),
         )
 
-    def pulls(self, attempt: SheetAttempt, geometry: Geometry) -> Pulls:
+    def pulls(self, attempt: MembraneIterate, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
         u = mesh.displacements(state)
@@ -68,30 +68,30 @@ class Membrane:
             smooth = pulls_of(problem, geometry, state, u)
         return tuple(zip(whole, smooth, strict=True))
 
-    def overlap(self, attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, attempt: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
         return overlap(attempt, kernels, geometry)
 
-    def holding(self, attempt: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
+    def holding(self, attempt: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         problem = replace(attempt.problem, mesh=attempt.problem.mesh.holding(kernels))
         lagged = lagged_terms(problem, "finite", attempt.state)
         change = change_of(lagged, attempt.lagged, problem, attempt.state)
         return replace(attempt, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, attempt: SheetAttempt, other: SheetAttempt) -> float:
+    def missed(self, attempt: MembraneIterate, other: MembraneIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
 
-def strain_at(attempt: SheetAttempt) -> Array:
+def strain_at(attempt: MembraneIterate) -> Array:
     """Return the strain of the sheet at the nodes, (n,)."""
     problem, state, sheet = attempt.problem, attempt.state, attempt.problem.sheet
     tension = sheet.stretch_by_tension * problem.tension_at(state)
     return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
 
-def _largest_of(mesh: SheetMesh, values: Array) -> float:
+def _largest_of(mesh: MembraneMesh, values: Array) -> float:
     """Return the maximum over x of values at ``mesh.inner``, also between nodes.
 
     Near an edge strains, as tractions, vary as the square root of the distance. They are smooth
@@ -100,7 +100,7 @@ def _largest_of(mesh: SheetMesh, values: Array) -> float:
     return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
 
 
-def _into_sheet(attempt: SheetAttempt, geometry: Geometry) -> float:
+def _into_sheet(attempt: MembraneIterate, geometry: Geometry) -> float:
     """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
     The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
@@ -118,7 +118,7 @@ def _into_sheet(attempt: SheetAttempt, geometry: Geometry) -> float:
     return taken + rate * (float(pushed @ strain) - bent)
 
 
-def traction_slope(attempt: SheetAttempt) -> float:
+def traction_slope(attempt: MembraneIterate) -> float:
     """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
 
     It turns an error of the creepage at a given traction into one of the traction at a given
@@ -128,6 +128,6 @@ def traction_slope(attempt: SheetAttempt) -> float:
     for creepage in (0.0, 1.0):  # the tractions are linear in it
         nip = replace(attempt.problem.nip, tangential=Creepage(creepage))
         problem = replace(attempt.problem, nip=nip)
-        found = Factorised.of(problem, attempt.state.both_states).solved(attempt.lagged)
+        found = FactorisedMembrane.of(problem, attempt.state.both_states).solved(attempt.lagged)
         tractions.append(float(problem.mesh.weights @ found.shear_lower))
     return abs(tractions[1] - tractions[0])

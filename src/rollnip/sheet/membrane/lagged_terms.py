@@ -19,25 +19,27 @@ from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
-from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
 
 
-def first_lagged(problem: SheetProblem) -> Lagged:
+def first_lagged(problem: MembraneProblem) -> MembraneTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     n, tangential = problem.mesh.inner.size, problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
     traction = 0.0 if isinstance(tangential, Torque) else traction
-    return Lagged(np.zeros(n), np.zeros((2, n)), traction)
+    return MembraneTerms(np.zeros(n), np.zeros((2, n)), traction)
 
 
-def has_none(problem: SheetProblem, geometry: Geometry) -> bool:
+def has_none(problem: MembraneProblem, geometry: Geometry) -> bool:
     """Return whether the problem is linear, without any term that depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
 
 
-def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -> Lagged:
+def lagged_terms(
+    problem: MembraneProblem, geometry: Geometry, state: MembraneState
+) -> MembraneTerms:
     """Return the lagged terms that follow from a solution."""
     first = first_lagged(problem)
     if has_none(problem, geometry):
@@ -56,10 +58,12 @@ def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -
     traction = first.traction
     if isinstance(nip.tangential, Torque):
         traction = _traction_for_torque(problem, geometry, state, u)
-    return Lagged(clearance, offsets, traction, lean)
+    return MembraneTerms(clearance, offsets, traction, lean)
 
 
-def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
+def change_of(
+    new: MembraneTerms, old: MembraneTerms, problem: MembraneProblem, state: MembraneState
+) -> float:
     """Return the largest change of the terms, relative to the first-order quantities."""
     nip, mesh = problem.nip, problem.mesh
     half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
@@ -76,7 +80,9 @@ def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState
     return largest(*changes)
 
 
-def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
+def missed(
+    new: MembraneTerms, old: MembraneTerms, problem: MembraneProblem, state: MembraneState
+) -> float:
     """Return the relative residual of a solution under other lagged terms.
 
     ``old``: the terms that it was solved with; ``new``: those it is checked with. The residual is
@@ -95,7 +101,7 @@ def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -
     return largest(*parts)
 
 
-def path_turn(problem: SheetProblem, u: Displacements) -> Array:
+def path_turn(problem: MembraneProblem, u: Displacements) -> Array:
     """Return the change of slope of the sheet's middle over each interval of nodes[1:], (n,).
 
     The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2.
@@ -111,9 +117,9 @@ def path_turn(problem: SheetProblem, u: Displacements) -> Array:
 
 
 def _offsets(
-    problem: SheetProblem,
+    problem: MembraneProblem,
     geometry: Geometry,
-    state: SheetState,
+    state: MembraneState,
     flat: Displacements,
     u: Displacements,
 ) -> Array:
@@ -139,7 +145,7 @@ def _offsets(
     return np.stack([upper - strained + bend, strained + bend - lower])
 
 
-def _lean(problem: SheetProblem, state: SheetState, u: Displacements) -> float:
+def _lean(problem: MembraneProblem, state: MembraneState, u: Displacements) -> float:
     """Return int q slope dx, with the mean shear and slope of both surfaces [N/mm]."""
     nip, mesh = problem.nip, problem.mesh
     shear = 0.5 * (state.shear + state.shear_lower)
@@ -149,7 +155,7 @@ def _lean(problem: SheetProblem, state: SheetState, u: Displacements) -> float:
 
 
 def pulls_of(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
+    problem: MembraneProblem, geometry: Geometry, state: MembraneState, u: Displacements
 ) -> tuple[float, float]:
     """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:].
 
@@ -166,7 +172,7 @@ def pulls_of(
 
 
 def _traction_for_torque(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
+    problem: MembraneProblem, geometry: Geometry, state: MembraneState, u: Displacements
 ) -> float:
     """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
     nip, mesh = problem.nip, problem.mesh

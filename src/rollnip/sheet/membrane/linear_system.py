@@ -11,22 +11,22 @@ from scipy.linalg import lapack
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.friction import SIGNS
-from rollnip.sheet.membrane.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Factorised:
+class FactorisedMembrane:
     """The factorised linear system for given states, to be solved for several lagged terms."""
 
-    problem: SheetProblem
+    problem: MembraneProblem
     states: States
     factors: Array
     pivots: NDArray[np.intp]
 
     @classmethod
-    def of(cls, problem: SheetProblem, states: States) -> Factorised:
+    def of(cls, problem: MembraneProblem, states: States) -> FactorisedMembrane:
         """Factorise the system for given states, (2, n), without checking the contact conditions.
 
         Raises
@@ -39,7 +39,7 @@ class Factorised:
             raise np.linalg.LinAlgError("Singular matrix")
         return cls(problem, states, factors, pivots)
 
-    def solved(self, lagged: Lagged) -> SheetState:
+    def solved(self, lagged: MembraneTerms) -> MembraneState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
         unknowns, info = lapack.dgetrs(
@@ -53,7 +53,7 @@ class Factorised:
         shears = _ratios(problem, states) * pressure
         shears.reshape(-1)[sticks] = unknowns[n_c:-3]
         approach, creepage, lower = unknowns[-3:].tolist()
-        return SheetState(
+        return MembraneState(
             states=states[0],
             pressure=pressure,
             shear=shears[0],
@@ -72,12 +72,12 @@ def _places(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return (states[0] != State.FREE).nonzero()[0], (states == State.STICK).reshape(-1).nonzero()[0]
 
 
-def _ratios(problem: SheetProblem, states: States) -> Array:
+def _ratios(problem: MembraneProblem, states: States) -> Array:
     """Return shear over pressure where the interfaces slip, 0 elsewhere, (2, n)."""
     return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
 
 
-def _matrix(problem: SheetProblem, states: States) -> Array:
+def _matrix(problem: MembraneProblem, states: States) -> Array:
     """Return the matrix of gaps in contact, creeps in stick, and three prescribed quantities."""
     n, (contact, sticks) = states.shape[1], _places(states)
     n_c, size = contact.size, contact.size + sticks.size
@@ -121,7 +121,7 @@ def _sums(
     return np.concatenate([(weights * ratio)[contact], stuck])
 
 
-def _right_side(problem: SheetProblem, states: States, lagged: Lagged) -> Array:
+def _right_side(problem: MembraneProblem, states: States, lagged: MembraneTerms) -> Array:
     contact, sticks = _places(states)
     right, nip = problem.right(lagged), problem.nip
     normal, tangential = nip.normal, nip.tangential

@@ -35,19 +35,19 @@ from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
-from rollnip.sheet.iterate import Attempt
+from rollnip.sheet.iterate import Iterate
 from rollnip.sheet.membrane.complementarity import next_slip, slipping, solve_node_by_node
 from rollnip.sheet.membrane.lagged_terms import change_of, first_lagged, has_none, lagged_terms
-from rollnip.sheet.membrane.linear_system import Factorised
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.system import (
-    Lagged,
-    SheetMesh,
-    SheetProblem,
-    SheetState,
-    sheet_displacements,
-    sheet_mesh_on,
+    MembraneMesh,
+    MembraneProblem,
+    MembraneState,
+    MembraneTerms,
+    membrane_displacements,
+    membrane_mesh_on,
 )
-from rollnip.sheet.membrane.zones import Zones
+from rollnip.sheet.membrane.zones import MembraneZones
 from rollnip.sheet.secant import Moves
 from rollnip.sheet.squeeze import squeezed
 
@@ -68,27 +68,27 @@ _STILL = 0.1  # of the tolerance: last change of the lagged terms
 SHORTEST_LAYER = 1e-3  # over the width: shortest boundary layer for which nodes crowd
 
 
-SheetAttempt = Attempt[Zones, SheetProblem, SheetState, Lagged]
+MembraneIterate = Iterate[MembraneZones, MembraneProblem, MembraneState, MembraneTerms]
 """The iterate of the search for a membrane."""
 
 
 @dataclass(frozen=True)
-class SheetSearch:
+class MembraneSearch:
     """The search for the zones of a nip with a membrane, for one model."""
 
     nip: Nip
     model: Model
     kernels: PairKernels
-    moves: Moves[Zones] = field(default_factory=Moves)
+    moves: Moves[MembraneZones] = field(default_factory=Moves)
 
-    def begun(self, half_width: float, count: int) -> SheetAttempt:
+    def begun(self, half_width: float, count: int) -> MembraneIterate:
         """Return a first solution in linear geometry, on a mesh that extends beyond the contact.
 
         ``half_width``: approximate half-width of the nip [mm]; ``count``: number of elements.
         """
         reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
         for _ in range(_MOST_REACHES):
-            problem = self._problem(Zones.sticking(reach), shape, None)
+            problem = self._problem(MembraneZones.sticking(reach), shape, None)
             lagged = first_lagged(problem)
             state, steps = solve_node_by_node(problem, lagged, half_width), 0
             if not has_none(problem, "linear"):
@@ -97,12 +97,12 @@ class SheetSearch:
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
-        zones = Zones.around(problem.mesh.inner, state, problem.frictions)
-        return SheetAttempt(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
+        zones = MembraneZones.around(problem.mesh.inner, state, problem.frictions)
+        return MembraneIterate(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
 
     def placed(
-        self, zones: Zones, count: int, before: SheetAttempt, closely: float
-    ) -> SheetAttempt:
+        self, zones: MembraneZones, count: int, before: MembraneIterate, closely: float
+    ) -> MembraneIterate:
         """Return the solution on a mesh of one size with nodes at the ends of its zones.
 
         ``closely``: allowed error of a zone end, over the tolerance times the width.
@@ -131,7 +131,7 @@ class SheetSearch:
             start = carried(attempt, problem)
             attempt = self._solved(problem, zones, start, steps, (near, misplacement))
             steps = attempt.steps
-            called = _ZonesCalledFor(attempt, self._slack)
+            called = _ZonesByStates(attempt, self._slack)
             is_near = known <= _NEARLY_PLACED
             proposed = zones.moved(problem, attempt.state, called, is_near=is_near)
             misplacement = proposed.distance(zones)
@@ -174,18 +174,18 @@ class SheetSearch:
 
     def _problem(
         self,
-        zones: Zones,
+        zones: MembraneZones,
         shape: tuple[NDArray[np.intp], tuple[float, ...]],
-        before: SheetAttempt | None,
-    ) -> SheetProblem:
+        before: MembraneIterate | None,
+    ) -> MembraneProblem:
         """Assemble the problem on a mesh with nodes at the zone ends."""
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._holding(before)
-        mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
+        mesh = membrane_mesh_on(nodes, kernels, subdivided(nodes, *shape))
         bends = before is not None and self.model.geometry != "linear"
-        return SheetProblem.on(self.nip, mesh, self._arcs(mesh, before), has_path=bends)
+        return MembraneProblem.on(self.nip, mesh, self._arcs(mesh, before), has_path=bends)
 
-    def _arcs(self, mesh: SheetMesh, before: SheetAttempt | None) -> Array | None:
+    def _arcs(self, mesh: MembraneMesh, before: MembraneIterate | None) -> Array | None:
         """Return ds/dx of the sheet's path in the previous solution; None: all 1."""
         if before is None or self.model.geometry not in FINITE:
             return None
@@ -195,7 +195,7 @@ class SheetSearch:
         places = 0.5 * (mesh.fine.nodes[1:] + mesh.fine.nodes[:-1])
         return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
 
-    def _holding(self, before: SheetAttempt | None) -> PairKernels:
+    def _holding(self, before: MembraneIterate | None) -> PairKernels:
         """Return influence functions with second-order terms of the previous solution, if any."""
         if self.kernels.is_fixed:
             return self.kernels
@@ -206,18 +206,18 @@ class SheetSearch:
 
     def _solved(
         self,
-        problem: SheetProblem,
-        zones: Zones,
-        lagged: Lagged,
+        problem: MembraneProblem,
+        zones: MembraneZones,
+        lagged: MembraneTerms,
         steps: int,
         misplacement: tuple[float, float],
-    ) -> SheetAttempt:
+    ) -> MembraneIterate:
         """Solve on one mesh with given zones, iterating the lagged terms.
 
         ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
         Ends that are far off leave singular tractions, for which updated terms are meaningless.
         """
-        system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
+        system = FactorisedMembrane.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
         most = _MOST_ITERATIONS if misplacement[1] < _NEARLY_PLACED else 2
         for _ in range(most):
@@ -234,7 +234,7 @@ class SheetSearch:
                 break
         if not (np.isfinite(change) and np.all(np.isfinite(state.pressure))):
             raise np.linalg.LinAlgError("no finite solution")
-        return SheetAttempt(
+        return MembraneIterate(
             zones, problem, state, lagged, change, inf, steps, bool(change <= still)
         )
 
@@ -242,20 +242,22 @@ class SheetSearch:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _other(self, attempt: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
+    def _other(
+        self, attempt: MembraneIterate, edges: MembraneZones
+    ) -> tuple[MembraneIterate, MembraneZones] | None:
         """Return other zones between known edges, found node by node; None where there are none."""
         problem = attempt.problem
         state = slipping(problem, attempt.state, attempt.lagged, self._slack)
         if state is None:
             state = solve_node_by_node(problem, attempt.lagged, 0.5 * attempt.zones.width)
-        zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
+        zones = MembraneZones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None
         return replace(attempt, state=state, steps=attempt.steps + state.steps), zones
 
 
 @dataclass(frozen=True)
-class _ZonesCalledFor:
+class _ZonesByStates:
     """Zones that follow from the nodal states a solution calls for, computed on demand.
 
     Attributes
@@ -264,7 +266,7 @@ class _ZonesCalledFor:
     slack : see `next_slip`.
     """
 
-    attempt: SheetAttempt
+    attempt: MembraneIterate
     slack: float
 
     @cached_property
@@ -273,12 +275,12 @@ class _ZonesCalledFor:
         return next_slip(attempt.problem, attempt.state, attempt.creeps, self.slack)
 
     @cached_property
-    def _found(self) -> Zones | None:
+    def _found(self) -> MembraneZones | None:
         """Return the zones of these states, if they are like those of the solution."""
         attempt, wanted = self.attempt, self._wanted
         state = replace(attempt.state, states=wanted[0], states_lower=wanted[1])
         frictions, x = attempt.problem.frictions, attempt.problem.mesh.inner
-        found = Zones.found(x, state, frictions, attempt.zones.edges)
+        found = MembraneZones.found(x, state, frictions, attempt.zones.edges)
         found = None if found is None else found.without_slivers()
         return found if found is not None and found.is_like(attempt.zones) else None
 
@@ -306,7 +308,7 @@ class _ZonesCalledFor:
         return (self._found or self.attempt.zones).sides
 
 
-def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(attempt: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
     """Return the relative overlap outside the contact, or the relative tension in it."""
     problem, state = attempt.problem, attempt.state
     nip, mesh, width = problem.nip, problem.mesh, attempt.zones.width
@@ -314,7 +316,7 @@ def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> 
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
     acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
     made = pair_displacements(kernels, x, mesh.fine.nodes, np.stack(acting, axis=1))
-    u = sheet_displacements(made)
+    u = membrane_displacements(made)
     u = u if kernels.is_linear else u + mesh.second(state, x)
     gap = sum(surface_depths(x, nip, geometry, u)) - state.approach
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
@@ -323,7 +325,7 @@ def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> 
     return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 
-def carried(attempt: SheetAttempt, problem: SheetProblem) -> Lagged:
+def carried(attempt: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
     """Return the lagged terms of a solution, interpolated to another mesh."""
     old, new, lagged = attempt.problem.mesh, problem.mesh, attempt.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))

@@ -42,7 +42,7 @@ _TINY = 1e-12  # mm/MPa
 
 
 @dataclass(frozen=True, slots=True)
-class SheetState(ContactState):
+class MembraneState(ContactState):
     """A solution of the membrane problem on a mesh.
 
     The inherited ``states``, ``shear`` and ``creepage`` are those of the upper interface.
@@ -73,17 +73,17 @@ class SheetState(ContactState):
         """Return the states of both interfaces, (2, n)."""
         return np.array((self.states, self.states_lower))
 
-    def side(self, number: int) -> SheetState:
+    def side(self, number: int) -> MembraneState:
         """Return one interface, 0 the upper and 1 the lower, as a contact state of its own."""
         if number == 0:
             return self
         return replace(self, states=self.states_lower, shear=self.shear_lower)
 
 
-class SheetMesh(Mesh):
+class MembraneMesh(Mesh):
     """A mesh on which the lower roller has a shear of its own.
 
-    ``influence`` is empty: the influence matrix is `SheetProblem.matrix`.
+    ``influence`` is empty: the influence matrix is `MembraneProblem.matrix`.
     """
 
     __slots__ = ()
@@ -91,7 +91,7 @@ class SheetMesh(Mesh):
 
     def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:] that are linear in the tractions."""
-        assert isinstance(state, SheetState)
+        assert isinstance(state, MembraneState)
         xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = self.per_traction
         p, above, below = state.pressure, state.shear, -state.shear_lower
         return Displacements(
@@ -107,7 +107,7 @@ class SheetMesh(Mesh):
 
     def second_fields(self, state: ContactState) -> SecondFields:
         """Return the second-order displacements under a solution's tractions as functions."""
-        assert isinstance(state, SheetState)
+        assert isinstance(state, MembraneState)
         nodes, p = self.fine.nodes, self.acting(state.pressure)
         upper = replace(self.kernels, second_lower=None)
         lower = replace(self.kernels, second_upper=None)
@@ -117,7 +117,7 @@ class SheetMesh(Mesh):
         return SecondFields(functions, above.ends[:2] + below.ends[2:])
 
 
-def sheet_displacements(made: Array) -> Displacements:
+def membrane_displacements(made: Array) -> Displacements:
     """Return displacements under a solution's tractions: (q_u, p) above and (-q_l, p) below.
 
     ``made``, (6, n, 3): displacements by p, q_u and q_l, for each function of `pair_displacements`.
@@ -132,13 +132,13 @@ def sheet_displacements(made: Array) -> Displacements:
     return Displacements(np.stack(four))
 
 
-def sheet_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> SheetMesh:
+def membrane_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> MembraneMesh:
     """Return a mesh with the influence functions of both surfaces evaluated on it."""
-    return SheetMesh.on(nodes, kernels, fine)
+    return MembraneMesh.on(nodes, kernels, fine)
 
 
 @dataclass(frozen=True, slots=True)
-class Lagged:
+class MembraneTerms:
     """Terms that depend on the solution, evaluated from the previous iterate.
 
     Attributes
@@ -157,7 +157,7 @@ class Lagged:
 
 
 @dataclass(frozen=True)
-class SheetProblem:
+class MembraneProblem:
     """The discrete problem on a mesh, without the states of the nodes.
 
     Attributes
@@ -177,7 +177,7 @@ class SheetProblem:
 
     nip: Nip
     sheet: Sheet
-    mesh: SheetMesh
+    mesh: MembraneMesh
     frictions: tuple[float, float]
     arcs: Array
     tension: Array
@@ -190,8 +190,8 @@ class SheetProblem:
 
     @classmethod
     def on(
-        cls, nip: Nip, mesh: SheetMesh, arcs: Array | None = None, *, has_path: bool = False
-    ) -> SheetProblem:
+        cls, nip: Nip, mesh: MembraneMesh, arcs: Array | None = None, *, has_path: bool = False
+    ) -> MembraneProblem:
         """Assemble the problem of a nip with a sheet on a mesh.
 
         ``arcs`` None: all 1. ``has_path``: whether the faces' speeds follow from the curvature of
@@ -238,7 +238,7 @@ class SheetProblem:
         return self.mesh.dx
 
     @property
-    def meshes(self) -> tuple[SheetMesh, SheetMesh]:
+    def meshes(self) -> tuple[MembraneMesh, MembraneMesh]:
         """Return the mesh of each interface; both are the same."""
         return self.mesh, self.mesh
 
@@ -247,7 +247,7 @@ class SheetProblem:
         """Operator for the path of the sheet on this mesh."""
         return SheetPath.on(self.mesh)
 
-    def right(self, lagged: Lagged) -> Array:
+    def right(self, lagged: MembraneTerms) -> Array:
         """Return the parts of gaps and creeps that do not depend on the unknowns, (3, n) [mm]."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         stretch = sheet.stretch_by_tension * pulled * self.dx
@@ -255,18 +255,18 @@ class SheetProblem:
         gap += sheet.stretch_by_pressure * pulled
         return np.stack([gap, lagged.offsets[0] - stretch, lagged.offsets[1] + stretch])
 
-    def tension_at(self, state: SheetState) -> Array:
+    def tension_at(self, state: MembraneState) -> Array:
         """Return the tension of the sheet at ``mesh.inner``, (n,) [N/mm]."""
         pulled = self.tension @ (state.shear - state.shear_lower)
         return np.asarray(self.sheet.tension_in - pulled)
 
-    def strain_over(self, state: SheetState) -> Array:
+    def strain_over(self, state: MembraneState) -> Array:
         """Return int e dx over each interval, (n,) [mm]."""
         tension = self.sheet.tension_in * self.dx - self.over @ (state.shear - state.shear_lower)
         pressed = self.sheet.stretch_by_pressure * (self.pressed @ state.pressure)
         return np.asarray(self.sheet.stretch_by_tension * tension + pressed)
 
-    def gap_and_creeps(self, state: SheetState, lagged: Lagged) -> Array:
+    def gap_and_creeps(self, state: MembraneState, lagged: MembraneTerms) -> Array:
         """Return the gap at the nodes and both creeps over the intervals, (3, n) [mm]."""
         tractions = np.concatenate([state.pressure, state.shear, state.shear_lower])
         made = (self.matrix @ tractions).reshape(3, -1) + self.right(lagged)
@@ -275,15 +275,15 @@ class SheetProblem:
         made[2] += state.creepage_lower * self.dx
         return np.asarray(made)
 
-    def creeps(self, state: SheetState, lagged: Lagged) -> tuple[Array, Array]:
+    def creeps(self, state: MembraneState, lagged: MembraneTerms) -> tuple[Array, Array]:
         """Return the creep of each interface over each interval, each (n,) [mm]."""
         _, upper, lower = self.gap_and_creeps(state, lagged)
         return upper, lower
 
-    def sheared(self, state: SheetState, side: int) -> Array:
+    def sheared(self, state: MembraneState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         return np.asarray(-np.diff(self.tension @ state.shears[side]))
 
-    def displacements(self, state: SheetState, _: int = 0) -> Displacements:
+    def displacements(self, state: MembraneState, _: int = 0) -> Displacements:
         """Return the displacements of both rollers at nodes[1:]."""
         return self.mesh.displacements(state)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Layout, States, contact_zones
-from rollnip.sheet.membrane.system import SheetProblem, SheetState
+from rollnip.sheet.membrane.system import MembraneProblem, MembraneState
 from rollnip.sheet.zones import (
     LONGEST_MOVE,
     OF_TRANSITIONS,
@@ -26,7 +26,7 @@ _COINCIDENT = 1e-8  # over the width: zone ends this close leave elements of no 
 _SLIVER = 1e-3  # over the width: shorter zones are removed
 
 
-class LazyZones(Protocol):
+class RequestedZones(Protocol):
     """Zones that are computed on demand."""
 
     @property
@@ -40,7 +40,7 @@ class LazyZones(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Zones(SideZones):
+class MembraneZones(SideZones):
     """The zones of the upper and of the lower interface of a membrane, with common edges."""
 
     @property
@@ -60,7 +60,7 @@ class Zones(SideZones):
         places = {place for side in self.sides for place in side.breaks.tolist()}
         return np.array(sorted(places))
 
-    def distance(self, other: Zones) -> float:
+    def distance(self, other: MembraneZones) -> float:
         """Return the largest distance between the ends of like zones, over the width.
 
         Figures depend on transitions only to second order: ten times their squared distance counts.
@@ -75,7 +75,7 @@ class Zones(SideZones):
         """Return the states of the nodes on both interfaces, (2, n)."""
         return np.stack([side.states_on(x) for side in self.sides])
 
-    def aligned(self) -> Zones:
+    def aligned(self) -> MembraneZones:
         """Return zones whose nearly coincident transitions are both moved to their mean."""
         near = _TOGETHER * self.width
         places = [side.breaks.copy() for side in self.sides]
@@ -85,11 +85,16 @@ class Zones(SideZones):
                 j = 1 + int(np.argmin(apart))
                 places[0][i] = places[1][j] = 0.5 * (places[0][i] + places[1][j])
         upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
-        return Zones(upper, lower)
+        return MembraneZones(upper, lower)
 
     def moved(
-        self, problem: SheetProblem, state: SheetState, called: LazyZones, *, is_near: bool
-    ) -> Zones:
+        self,
+        problem: MembraneProblem,
+        state: MembraneState,
+        called: RequestedZones,
+        *,
+        is_near: bool,
+    ) -> MembraneZones:
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
         ``called``: like zones from the nodal states that the solution calls for. They place a
@@ -114,7 +119,7 @@ class Zones(SideZones):
             if not clear.all():
                 inner[~clear] = called.sides[number].breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted.breaks, edges), side.states))
-        return Zones(sides[0], sides[1])
+        return MembraneZones(sides[0], sides[1])
 
     def _edges_towards(self, proposed: Sequence[Layout]) -> tuple[float, float]:
         """Return the edges, moved towards proposed ones as far as the zones of both sides allow."""
@@ -127,13 +132,15 @@ class Zones(SideZones):
         trailing, leading = (edges + np.clip(moves, -most, most)).tolist()
         return trailing, leading
 
-    def without_slivers(self) -> Zones:
+    def without_slivers(self) -> MembraneZones:
         """Return the zones without those too short to matter."""
         sides = [without_slivers_in(side, _SLIVER * self.width) for side in self.sides]
-        return Zones(sides[0], sides[1])
+        return MembraneZones(sides[0], sides[1])
 
     @classmethod
-    def around(cls, x: Array, state: SheetState, frictions: tuple[float, float]) -> Zones:
+    def around(
+        cls, x: Array, state: MembraneState, frictions: tuple[float, float]
+    ) -> MembraneZones:
         """Return the zones of nodal states on a mesh that extends beyond the contact.
 
         Where the contact or its zones are disconnected, one stick zone is returned.
@@ -153,10 +160,10 @@ class Zones(SideZones):
     def found(
         cls,
         x: Array,
-        state: SheetState,
+        state: MembraneState,
         frictions: tuple[float, float],
         edges: tuple[float, float],
-    ) -> Zones | None:
+    ) -> MembraneZones | None:
         """Return the zones of nodal states between known edges; None where they are unclear."""
         sides = [
             Layout.found(x, state.side(number), friction, edges)

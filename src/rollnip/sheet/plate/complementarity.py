@@ -12,7 +12,7 @@ from rollnip.nip import LineLoad
 from rollnip.sheet.friction import parted
 from rollnip.sheet.plate.linear_system import FURTHER, equations, given
 from rollnip.sheet.plate.matrices import Pair
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
 Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]
@@ -22,7 +22,7 @@ _LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
 def solve_node_by_node(
-    problem: PlateProblem, lagged: LaggedPlate, edges: Edges
+    problem: PlateProblem, lagged: PlateTerms, edges: Edges
 ) -> tuple[PlateState, int]:
     """Return the solution on two meshes whose nodal contact, stick and slip meet all conditions.
 
@@ -69,7 +69,7 @@ def solve_node_by_node(
 
 
 def _inequalities(
-    problem: PlateProblem, lagged: LaggedPlate, edges: Edges
+    problem: PlateProblem, lagged: PlateTerms, edges: Edges
 ) -> tuple[Inequalities, Array]:
     """Return the complementarity problem of gaps and creeps on two meshes, and a starting point."""
     a, b, c, d, end = problem.starts

@@ -16,7 +16,7 @@ from rollnip.sheet.figures import NAMES, SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import SIGNS, highest
-from rollnip.sheet.plate.iterate import PlateAttempt, overlap
+from rollnip.sheet.plate.iterate import PlateIterate, overlap
 from rollnip.sheet.plate.lagged_terms import change_of, lagged_terms, missed, pull_of
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.system import PlateProblem, PlateState
@@ -28,7 +28,7 @@ _ON_LOWER = [NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_
 
 
 @dataclass(frozen=True, slots=True)
-class Bending:
+class PlateFormulation:
     """A nip with a plate: each interface has a contact of its own."""
 
     nip: Nip
@@ -55,7 +55,7 @@ class Bending:
         return upper, lower
 
     def figures(
-        self, attempt: PlateAttempt, geometry: Geometry
+        self, attempt: PlateIterate, geometry: Geometry
     ) -> tuple[SheetFigures, SheetFigures]:
         """Return figures with width and pressure of the upper interface, and of the lower one."""
         problem, state = attempt.problem, attempt.state
@@ -76,7 +76,7 @@ class Bending:
         )
         return upper, SheetFigures(lower)
 
-    def pulls(self, attempt: PlateAttempt, geometry: Geometry) -> Pulls:
+    def pulls(self, attempt: PlateIterate, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         problem, state, out = attempt.problem, attempt.state, []
         for side, mesh in enumerate(problem.meshes):
@@ -87,11 +87,11 @@ class Bending:
             out.append((whole, smooth))
         return out
 
-    def overlap(self, attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, attempt: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
         return overlap(attempt, kernels, geometry)
 
-    def holding(self, attempt: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
+    def holding(self, attempt: PlateIterate, kernels: PairKernels) -> PlateIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         meshes = list(attempt.problem.meshes)
         for side, roller in enumerate((self.nip.upper, self.nip.lower)):
@@ -103,7 +103,7 @@ class Bending:
         change = change_of(lagged, attempt.lagged, problem, attempt.state)
         return replace(attempt, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, attempt: PlateAttempt, other: PlateAttempt) -> float:
+    def missed(self, attempt: PlateIterate, other: PlateIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
@@ -124,7 +124,7 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
 
 
-def _into_sheet(attempt: PlateAttempt) -> float:
+def _into_sheet(attempt: PlateIterate) -> float:
     """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
     The faces run at V_s (1 + e -+ h y''/2). "linear" keeps the products with the strains, which are

@@ -18,9 +18,9 @@ from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.plate.complementarity import Edges, solve_node_by_node
-from rollnip.sheet.plate.interface import side_mesh
+from rollnip.sheet.plate.interface import interface_mesh
 from rollnip.sheet.plate.lagged_terms import first_lagged, lagged_terms
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
 _ELEMENTS = 30  # least number for a mesh that extends beyond the contacts
@@ -35,7 +35,7 @@ _BESIDE = 8  # elements beyond each approximately known edge
 
 
 @dataclass(frozen=True, slots=True)
-class FirstZones:
+class InitialZones:
     """The search for initial zones, for one nip."""
 
     nip: Nip
@@ -57,7 +57,7 @@ class FirstZones:
             reach *= _WIDER
         return self.closer(PlateZones.around(problem, state), None, count)
 
-    def closer(self, zones: PlateZones, lagged: LaggedPlate | None, count: int) -> PlateZones:
+    def closer(self, zones: PlateZones, lagged: PlateTerms | None, count: int) -> PlateZones:
         """Return more accurate zones from approximate ones, on meshes that crowd at their edges.
 
         Each mesh ends closer to the edges that the previous one found; where edges moved to the end
@@ -80,7 +80,7 @@ class FirstZones:
         return zones
 
     def _beyond(
-        self, zones: PlateZones, lagged: LaggedPlate | None, elements: int, margin: float
+        self, zones: PlateZones, lagged: PlateTerms | None, elements: int, margin: float
     ) -> PlateZones:
         """Return the zones on meshes that end ``margin`` times the width beyond the edges."""
         problem = self._problem(zones, margin, elements)
@@ -90,7 +90,7 @@ class FirstZones:
         return PlateZones.around(problem, self._solved_node_by_node(problem, first, zones.edges))
 
     def _solved_node_by_node(
-        self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges
+        self, problem: PlateProblem, lagged: PlateTerms, edges: Edges
     ) -> PlateState:
         """Return a solution with contact, stick and slip; a prescribed torque takes two solves."""
         state, _ = solve_node_by_node(problem, lagged, edges)
@@ -113,7 +113,7 @@ class FirstZones:
             even = (1.0,) * elements.size
             nodes = cosine_nodes(breaks, elements, even)
             fine = subdivided(nodes, elements, even)
-            meshes.append(side_mesh(nodes, fine, kernels, number))
+            meshes.append(interface_mesh(nodes, fine, kernels, number))
         return PlateProblem.on(self.nip, (meshes[0], meshes[1]))
 
 

@@ -26,7 +26,7 @@ _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
 
 
 @dataclass(frozen=True, slots=True)
-class SideMesh(Mesh):
+class InterfaceMesh(Mesh):
     """A mesh on one interface, where only one roller has displacements.
 
     ``influence`` is empty: the influence matrix is `PlateProblem.matrix`.
@@ -35,7 +35,9 @@ class SideMesh(Mesh):
     is_bare: ClassVar[bool] = False
 
 
-def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) -> SideMesh:
+def interface_mesh(
+    nodes: Array, fine: Subdivision, kernels: PairKernels, side: int
+) -> InterfaceMesh:
     """Return a mesh on which only one roller has displacements; none at all where it is rigid."""
     surface = (kernels.upper, kernels.lower)[side]
     if surface is None:
@@ -51,14 +53,14 @@ def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) 
         together=surface.together,
         hoops=(hoops[0], hoops[1]),
     )
-    return SideMesh.on(nodes, alone, fine)
+    return InterfaceMesh.on(nodes, alone, fine)
 
 
-def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> SideMesh:
+def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> InterfaceMesh:
     inner, acting = nodes[1:-1], fine.acting
     assert acting is not None
     alone = replace(kernels, second_upper=None, second_lower=None, held=None, hoops=(0.0, 0.0))
-    return SideMesh(
+    return InterfaceMesh(
         nodes=nodes,
         fine=fine,
         inner=inner,

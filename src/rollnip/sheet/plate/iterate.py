@@ -15,19 +15,19 @@ from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
-from rollnip.sheet.iterate import Attempt
+from rollnip.sheet.iterate import Iterate
 from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
 from rollnip.sheet.plate.interface import SIGNS
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
 Array = NDArray[np.float64]
 
 
-PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
+PlateIterate = Iterate[PlateZones, PlateProblem, PlateState, PlateTerms]
 
 
-def shear_over(attempt: PlateAttempt) -> float:
+def shear_over(attempt: PlateIterate) -> float:
     """Return the largest excess of a sticking node's shear over its bound, over the largest bound.
 
     Infinite where one side has no pressure.
@@ -42,13 +42,13 @@ def shear_over(attempt: PlateAttempt) -> float:
     return most
 
 
-def pulls_at_edges(attempt: PlateAttempt) -> bool:
+def pulls_at_edges(attempt: PlateIterate) -> bool:
     """Return whether the pressure beside any edge is tensile; see `Mesh.pulls_at_edge`."""
     sides = zip(attempt.problem.meshes, attempt.state.pressure, strict=True)
     return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
 
 
-def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
+def added_to_peaks(attempt: PlateIterate, proposed: PlateZones) -> float:
     """Return the relative amount by which misplaced edges raise the peak pressures beside them.
 
     An edge that lies too far inwards by delta gives p ~ sqrt(y) + delta/(2 sqrt(y)) at the distance
@@ -66,7 +66,7 @@ def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
     return most
 
 
-def overlap(attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(attempt: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
     """Return the relative overlap outside the contacts, or the relative tension in them."""
     problem, state, width = attempt.problem, attempt.state, attempt.zones.width
     parts = []
@@ -79,7 +79,7 @@ def overlap(attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> 
 
 
 def gap_at(
-    attempt: PlateAttempt,
+    attempt: PlateIterate,
     model: tuple[PairKernels, Geometry],
     side: int,
     x: Array,
@@ -110,7 +110,7 @@ def _displacements_at(
     return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
-def carried(attempt: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
+def carried(attempt: PlateIterate, problem: PlateProblem) -> PlateTerms:
     """Return the lagged terms of a solution, interpolated to other meshes."""
     clearance, offsets, lagged = [], [], attempt.lagged
     for side, (old, new) in enumerate(zip(attempt.problem.meshes, problem.meshes, strict=True)):

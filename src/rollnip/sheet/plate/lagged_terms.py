@@ -17,18 +17,18 @@ from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
 from rollnip.sheet.plate.curved_path import CurvedLoad, curved_load, is_stiff, places_along
 from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
 Array = NDArray[np.float64]
 
 
-def first_lagged(problem: PlateProblem) -> LaggedPlate:
+def first_lagged(problem: PlateProblem) -> PlateTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     tangential = problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
     traction = 0.0 if isinstance(tangential, Torque) else traction
     n, m = (mesh.inner.size for mesh in problem.meshes)
-    return LaggedPlate((np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), traction)
+    return PlateTerms((np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), traction)
 
 
 def has_none(problem: PlateProblem, geometry: Geometry) -> bool:
@@ -40,8 +40,8 @@ def lagged_terms(
     problem: PlateProblem,
     geometry: Geometry,
     state: PlateState,
-    before: LaggedPlate | None = None,
-) -> LaggedPlate:
+    before: PlateTerms | None = None,
+) -> PlateTerms:
     """Return the lagged terms that follow from a solution.
 
     ``before``: the terms that it was solved with; None: none.
@@ -75,10 +75,10 @@ def lagged_terms(
         traction = _traction_for_torque(problem, geometry, state)
     both = (clearance[0], clearance[1]), (offsets[0], offsets[1])
     if slopes is None:
-        return LaggedPlate(*both, traction, 0.5 * sum(leans))
+        return PlateTerms(*both, traction, 0.5 * sum(leans))
     slope = np.concatenate(slopes)[np.unique(problem.places, return_index=True)[1]]
     curved = curved_load(problem, state, path, slope)
-    return LaggedPlate(*both, traction, 0.5 * (sum(leans) + curved.whole), curved)
+    return PlateTerms(*both, traction, 0.5 * (sum(leans) + curved.whole), curved)
 
 
 def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
@@ -88,9 +88,7 @@ def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
     return upper, lower
 
 
-def change_of(
-    new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
-) -> float:
+def change_of(new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState) -> float:
     """Return the largest change of the terms, relative to the first-order quantities."""
     nip = problem.nip
     half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
@@ -111,7 +109,7 @@ def change_of(
 
 
 def _curved_change(
-    new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
+    new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState
 ) -> float:
     """Return the change of the couples and forces of a curved path, over the load."""
     if new.curved is None or old.curved is None:
@@ -120,7 +118,7 @@ def _curved_change(
     return new.curved.change_from(old.curved, load) if load > 0.0 else 0.0
 
 
-def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState) -> float:
+def missed(new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState) -> float:
     """Return the relative residual of a solution under other lagged terms.
 
     See `rollnip.sheet.membrane.lagged_terms.missed`.

@@ -12,7 +12,7 @@ from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.plate.matrices import Pair
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class FactorisedPlate:
             raise np.linalg.LinAlgError("Singular matrix")
         return cls(problem, states, factors, pivots)
 
-    def solved(self, lagged: LaggedPlate) -> PlateState:
+    def solved(self, lagged: PlateTerms) -> PlateState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
         right = -given(problem, lagged)[_places(states, problem.starts[-1])]
@@ -112,7 +112,7 @@ def equations(problem: PlateProblem) -> Array:
     return whole
 
 
-def given(problem: PlateProblem, lagged: LaggedPlate) -> Array:
+def given(problem: PlateProblem, lagged: PlateTerms) -> Array:
     """Return the parts of the rows of `equations` that do not depend on the unknowns."""
     nip, sheet = problem.nip, problem.sheet
     normal, tangential = nip.normal, nip.tangential

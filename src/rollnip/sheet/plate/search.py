@@ -28,10 +28,10 @@ from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import CLOSELY
 from rollnip.sheet.membrane.search import SHORTEST_LAYER
 from rollnip.sheet.plate.complementarity import solve_node_by_node
-from rollnip.sheet.plate.initial_zones import FirstZones
-from rollnip.sheet.plate.interface import path_ratio, side_mesh
+from rollnip.sheet.plate.initial_zones import InitialZones
+from rollnip.sheet.plate.interface import interface_mesh, path_ratio
 from rollnip.sheet.plate.iterate import (
-    PlateAttempt,
+    PlateIterate,
     added_to_peaks,
     carried,
     pulls_at_edges,
@@ -44,7 +44,7 @@ from rollnip.sheet.plate.lagged_terms import (
     lagged_terms,
 )
 from rollnip.sheet.plate.linear_system import FactorisedPlate
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
+from rollnip.sheet.plate.system import PlateProblem, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.secant import Moves
 
@@ -78,7 +78,7 @@ class PlateSearch:
     kernels: PairKernels
     moves: Moves[PlateZones] = field(default_factory=Moves)
 
-    def begun(self, half_width: float, count: int) -> PlateAttempt:
+    def begun(self, half_width: float, count: int) -> PlateIterate:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         zones = self._first.around(half_width, count).without_slivers()
@@ -88,16 +88,16 @@ class PlateSearch:
         return replace(attempt, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
-    def _first(self) -> FirstZones:
-        return FirstZones(self.nip, self.kernels)
+    def _first(self) -> InitialZones:
+        return InitialZones(self.nip, self.kernels)
 
     def placed(
         self,
         zones: PlateZones,
         count: int,
-        before: PlateAttempt,
+        before: PlateIterate,
         closely: float,
-    ) -> PlateAttempt:
+    ) -> PlateIterate:
         """Return the solution on meshes of one size with nodes at the ends of its zones.
 
         ``before``: a solution with approximately these zones; ``closely``: allowed error of a zone
@@ -119,8 +119,8 @@ class PlateSearch:
         return again if again.settled or again.misplacement < attempt.misplacement else attempt
 
     def _moved_until(
-        self, zones: PlateZones, count: int, before: PlateAttempt, placed: float
-    ) -> PlateAttempt:
+        self, zones: PlateZones, count: int, before: PlateIterate, placed: float
+    ) -> PlateIterate:
         """Move the zone ends until they converge, and change zones with wrong states.
 
         Slip that a single node calls for is tried; if it does not converge, the solution without it
@@ -131,7 +131,7 @@ class PlateSearch:
         changes = rough_ones = 0
         known = min(before.misplacement, 1.0)
         attempt, misplacement = before, inf
-        fair: PlateAttempt | None = None
+        fair: PlateIterate | None = None
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().reopened(CLOSELY * self.model.tolerance)
             if not zones.is_proper:
@@ -175,8 +175,8 @@ class PlateSearch:
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
         misplacement: tuple[float, float],
-        before: PlateAttempt | None,
-    ) -> tuple[PlateAttempt, bool]:
+        before: PlateIterate | None,
+    ) -> tuple[PlateIterate, bool]:
         """Solve for given zones; for ``sizes`` and the second value returned see `_problem`.
 
         ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
@@ -209,7 +209,7 @@ class PlateSearch:
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
         known: float,
-        before: PlateAttempt | None,
+        before: PlateIterate | None,
     ) -> tuple[PlateProblem, bool]:
         """Assemble the problem on meshes with nodes at the zone ends.
 
@@ -232,12 +232,12 @@ class PlateSearch:
                 shapes[number, crowding] = kept
             nodes = cosine_nodes(breaks, kept, crowding)
             fine = subdivided(nodes, kept, crowding)
-            meshes.append(side_mesh(nodes, fine, self._holding(before, number), number))
+            meshes.append(interface_mesh(nodes, fine, self._holding(before, number), number))
         both = meshes[0], meshes[1]
         return PlateProblem.on(self.nip, both, self._arcs(both, before)), is_fine
 
     def _arcs(
-        self, meshes: tuple[Mesh, Mesh], before: PlateAttempt | None
+        self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
         """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
         if before is None or self.model.geometry not in FINITE:
@@ -250,7 +250,7 @@ class PlateSearch:
             out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
-    def _holding(self, before: PlateAttempt | None, side: int) -> PairKernels:
+    def _holding(self, before: PlateIterate | None, side: int) -> PairKernels:
         """Return influence functions with one roller's second-order terms of the previous solution.
 
         Influence functions without second-order terms are returned unchanged.
@@ -266,10 +266,10 @@ class PlateSearch:
         self,
         problem: PlateProblem,
         zones: PlateZones,
-        lagged: LaggedPlate,
+        lagged: PlateTerms,
         steps: int,
         misplacement: float,
-    ) -> PlateAttempt:
+    ) -> PlateIterate:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
@@ -284,7 +284,7 @@ class PlateSearch:
             if not change > still:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)
-        return PlateAttempt(
+        return PlateIterate(
             zones, problem, state, lagged, change, inf, steps, bool(change <= still and finite)
         )
 
@@ -292,7 +292,7 @@ class PlateSearch:
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _found(self, attempt: PlateAttempt, edges: PlateZones) -> PlateZones | None:
+    def _found(self, attempt: PlateIterate, edges: PlateZones) -> PlateZones | None:
         """Return zones with consistent states between known edges; None where there are none."""
         if max(mesh.inner.size for mesh in attempt.problem.meshes) > _MOST_NODES:
             return None
@@ -304,7 +304,7 @@ class PlateSearch:
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, attempt: PlateAttempt, misplacement: float) -> PlateAttempt:
+def _unplaced(zones: PlateZones, attempt: PlateIterate, misplacement: float) -> PlateIterate:
     """Return the last solution, marked as not converged."""
     proper = zones if zones.is_proper else attempt.zones
     return replace(attempt, zones=proper, settled=False, misplacement=misplacement)

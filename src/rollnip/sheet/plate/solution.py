@@ -20,10 +20,10 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.membrane.system import SheetState
+from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import SIGNS, values_at
-from rollnip.sheet.plate.iterate import PlateAttempt
+from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import SheetProfiles, inside_zone
@@ -110,17 +110,17 @@ class PlateSolution(SheetSolution):
         )
 
     @property
-    def _state(self) -> SheetState:
-        return cast(SheetState, self.final.state)
+    def _state(self) -> MembraneState:
+        return cast(MembraneState, self.final.state)
 
     @property
-    def _standing(self) -> PlateAttempt:
+    def _standing(self) -> PlateIterate:
         return self._plate_refined.attempt
 
     @property
-    def _plate_refined(self) -> Refined[PlateAttempt]:
+    def _plate_refined(self) -> Refined[PlateIterate]:
         refined: Any = self.refined
-        return cast(Refined[PlateAttempt], refined)
+        return cast(Refined[PlateIterate], refined)
 
     @cached_property
     def _lower_round(self) -> Round:
@@ -204,14 +204,14 @@ class PlateSolution(SheetSolution):
         return out
 
 
-def plate_round(refined: Refined[PlateAttempt]) -> Round:
+def plate_round(refined: Refined[PlateIterate]) -> Round:
     """Return a solution as the `Round` of a bare nip, with the tractions of the upper interface."""
     attempt = refined.attempt
     state, problem = attempt.state, attempt.problem
     upper, lower = problem.meshes
     shear_lower = values_at(lower, upper.inner) @ state.shear[1]
     one = state.side(0)
-    both = SheetState(
+    both = MembraneState(
         states=one.states,
         pressure=one.pressure,
         shear=one.shear,
@@ -245,7 +245,7 @@ def plate_round(refined: Refined[PlateAttempt]) -> Round:
     )
 
 
-def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
+def lower_round(refined: Refined[PlateIterate], upper: Round) -> Round:
     """Return the `Round` of the lower interface, from that of the upper one."""
     attempt = refined.attempt
     mesh, lagged = attempt.problem.meshes[1], attempt.lagged
@@ -263,7 +263,7 @@ def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
     )
 
 
-def _as_problem(attempt: PlateAttempt, side: int) -> ContactProblem:
+def _as_problem(attempt: PlateIterate, side: int) -> ContactProblem:
     """Return the contact problem that a bare nip would have on the mesh of one interface."""
     problem, mesh = attempt.problem, attempt.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]

@@ -25,8 +25,8 @@ from rollnip.sheet.checks import (
     tension_of_curved,
 )
 from rollnip.sheet.finite_strain import solve_by_iteration
-from rollnip.sheet.plate.formulation import Bending
-from rollnip.sheet.plate.iterate import PlateAttempt
+from rollnip.sheet.plate.formulation import PlateFormulation
+from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.status import with_errors_said
@@ -84,19 +84,19 @@ def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
     return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
 
-def _rests(refined: Refined[PlateAttempt] | None) -> bool:
+def _rests(refined: Refined[PlateIterate] | None) -> bool:
     return refined is not None and refined.attempt.settled
 
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, Refined[PlateAttempt] | None, tuple[Reservation, ...]]:
+) -> tuple[Model, PairKernels, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
     """Return the solved model, influence functions, the solution, and reservations on the model.
 
     Simpler geometries are tried until one has a converged solution. Where none has, the first
     solution is returned; None where there is no solution at all.
     """
-    tried: list[tuple[Model, PairKernels, Refined[PlateAttempt] | None]] = []
+    tried: list[tuple[Model, PairKernels, Refined[PlateIterate] | None]] = []
     now: Model | None = model
     while now is not None:
         tried.append((now, *_attempt(nip, now, cache)))
@@ -112,16 +112,19 @@ def _refined(
 
 def _attempt(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined[PlateAttempt] | None]:
+) -> tuple[PairKernels, Refined[PlateIterate] | None]:
     """Return influence functions and the solution in one geometry; None where none exists."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_by_iteration(Bending(nip), model, kernels, half_width) or (kernels, None)
+        return solve_by_iteration(PlateFormulation(nip), model, kernels, half_width) or (
+            kernels,
+            None,
+        )
     try:
-        return kernels, refine(Bending(nip), model, kernels, half_width)
+        return kernels, refine(PlateFormulation(nip), model, kernels, half_width)
     except np.linalg.LinAlgError:
         return kernels, None
 
@@ -130,7 +133,7 @@ def _solution(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
-    refined: Refined[PlateAttempt],
+    refined: Refined[PlateIterate],
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
@@ -164,7 +167,7 @@ def _solution(
 
 
 def _verdict(
-    nip: Nip, model: Model, refined: Refined[PlateAttempt], rounds: tuple[Round, Round]
+    nip: Nip, model: Model, refined: Refined[PlateIterate], rounds: tuple[Round, Round]
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
     attempt = refined.attempt
@@ -191,7 +194,7 @@ def _verdict(
 def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
     """Return one side for its verdict, without the error of a peak that is within its own limit."""
     peak = final.error.peak_pressure
-    if peak > Bending(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
+    if peak > PlateFormulation(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
         return final
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 

@@ -88,7 +88,7 @@ class PlateState:
 
 
 @dataclass(frozen=True, slots=True)
-class LaggedPlate:
+class PlateTerms:
     """Terms that depend on the solution, evaluated from the previous iterate.
 
     Attributes
@@ -166,7 +166,7 @@ class PlateProblem:
         """Return nodes[1:] of the upper, then of the lower mesh, (m,) [mm]."""
         return np.concatenate([mesh.nodes[1:] for mesh in self.meshes])
 
-    def right(self, lagged: LaggedPlate) -> Array:
+    def right(self, lagged: PlateTerms) -> Array:
         """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         out, half = [], 0.5 * sheet.thickness
@@ -185,7 +185,7 @@ class PlateProblem:
         return np.concatenate(out)
 
     def gaps_and_creeps(
-        self, state: PlateState, lagged: LaggedPlate
+        self, state: PlateState, lagged: PlateTerms
     ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Return the gap at the nodes and the creep of the intervals, for each interface [mm]."""
         made = np.split(self.matrix @ state.tractions + self.right(lagged), self.starts[1:-1])
@@ -196,7 +196,7 @@ class PlateProblem:
         made[0] -= state.approach
         return (made[0], made[1]), (made[2], made[3])
 
-    def creeps(self, state: PlateState, lagged: LaggedPlate) -> tuple[Array, Array]:
+    def creeps(self, state: PlateState, lagged: PlateTerms) -> tuple[Array, Array]:
         """Return the creep of each interface over each interval, each (n,) [mm]."""
         (_, upper), (_, lower) = self.gaps_and_creeps(state, lagged)
         return upper, lower

@@ -40,17 +40,17 @@ def test_a_peak_beside_a_misplaced_edge_is_not_taken():
     # edge that lay inwards by delta, less than the tolerance allows.
     solution = rn.solve(nip_with(paper(bending=True), lower=RIGID), rn.Model(geometry="linear"))
     assert solution.converged
-    attempt = solution.refined.attempt
-    zones = attempt.zones
-    assert added_to_peaks(attempt, zones) == 0.0
-    mesh, lower = attempt.problem.meshes[1], zones.lower
+    iterate = solution.refined.iterate
+    zones = iterate.zones
+    assert added_to_peaks(iterate, zones) == 0.0
+    mesh, lower = iterate.problem.meshes[1], zones.lower
     away = mesh.inner[-1] - mesh.inner[:-1]
-    wrong = attempt.state.pressure[1].copy()
+    wrong = iterate.state.pressure[1].copy()
     wrong[:-1] += 2.0 * wrong.max() * np.sqrt(away[-1] / away)
-    state = replace(attempt.state, pressure=(attempt.state.pressure[0], wrong))
+    state = replace(iterate.state, pressure=(iterate.state.pressure[0], wrong))
     moved = np.append(lower.breaks[:-1], mesh.inner[-1] + away[-1])
     asked = PlateZones(zones.upper, Layout(moved, lower.states))
-    added = added_to_peaks(replace(attempt, state=state), asked)
+    added = added_to_peaks(replace(iterate, state=state), asked)
     # sqrt(y) + delta/(2 sqrt(y)) at y = delta
     assert added == pytest.approx(1.0 / 3.0, rel=1e-9)
 

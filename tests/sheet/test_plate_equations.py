@@ -106,10 +106,10 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
     # phi that vanishes far away, and of couple and force of its curved path; psi is the rotation of
     # the sections
     assert pulled.converged
-    attempt = pulled.refined.attempt
-    problem, state = attempt.problem, attempt.state
+    iterate = pulled.refined.iterate
+    problem, state = iterate.problem, iterate.state
     x = np.linspace(-12.0, 12.0, 12001)
-    curved = attempt.lagged.curved
+    curved = iterate.lagged.curved
     rotation = problem.rotation_at(state, x, curved)
     stiffness, tension = BOARD.bending_stiffness, 0.25
     for middle, length in ((0.3, 1.1), (-2.0, 2.5), (3.1, 2.0)):
@@ -141,8 +141,8 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
 
 
 def test_forces_on_the_sheet_and_their_moment_balance(pulled):
-    attempt = pulled.refined.attempt
-    problem, state = attempt.problem, attempt.state
+    iterate = pulled.refined.iterate
+    problem, state = iterate.problem, iterate.state
     force = moment = 0.0
     for side, sign in ((0, -1.0), (1, 1.0)):
         mesh, one = problem.meshes[side], problem.spreads[side]
@@ -150,7 +150,7 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
         moment += sign * float(one.moment @ state.pressure[side])
         moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])
     righting = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
-    curved = attempt.lagged.curved
+    curved = iterate.lagged.curved
     if curved is not None:
         force, moment = force + curved.whole, moment + curved.moment
     # lagged terms have changed once more since

@@ -137,15 +137,15 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     refined = solution.refined
     claimed = refined.errors.friction_upper
     assert refined.figures.friction_upper > 10.0 * claimed
-    attempt = refined.attempt
-    ahead = replace(attempt.state, creepage=-attempt.state.creepage - 0.1)
+    iterate = refined.iterate
+    ahead = replace(iterate.state, creepage=-iterate.state.creepage - 0.1)
     kind = MembraneFormulation(solution.nip)
     turned = with_errors_of_powers(
-        kind, replace(refined, attempt=replace(attempt, state=ahead)), "linear"
+        kind, replace(refined, iterate=replace(iterate, state=ahead)), "linear"
     ).errors
-    other = replace(attempt.state, creepage=-attempt.state.creepage + 0.1)
+    other = replace(iterate.state, creepage=-iterate.state.creepage + 0.1)
     back = with_errors_of_powers(
-        kind, replace(refined, attempt=replace(attempt, state=other)), "linear"
+        kind, replace(refined, iterate=replace(iterate, state=other)), "linear"
     ).errors
     assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed
     assert turned.friction_lower == refined.errors.friction_lower

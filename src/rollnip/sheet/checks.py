@@ -66,7 +66,7 @@ def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
     """Raise where the prescribed traction or torque exceeds the friction of either interface."""
     sheet, load = nip.sheet, refined.figures.load
     assert sheet is not None
-    wanted = refined.attempt.wanted_traction
+    wanted = refined.iterate.wanted_traction
     if wanted is None or not load > 0.0:
         return
     pulls = wanted + sheet.tension_in - sheet.tension_out, wanted
@@ -74,7 +74,7 @@ def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
     sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
     for side, pull, friction in sides:
         if abs(pull) >= friction * load and (
-            refined.attempt.settled or isinstance(nip.tangential, Traction)
+            refined.iterate.settled or isinstance(nip.tangential, Traction)
         ):
             raise InvalidInputError(_slips_through(name, side, pull, friction * load))
 
@@ -109,7 +109,7 @@ def sheet_verdict(
     nip: Nip, model: Model, refined: Refined[AnyIterate], final: Round
 ) -> tuple[bool, str]:
     """Return whether the solution is valid, and its status: a remedy, or its beginning if valid."""
-    if not refined.attempt.settled:
+    if not refined.iterate.settled:
         if not isfinite(refined.residual):
             return False, (
                 "Stick and slip on both sides of the sheet did not settle (no pressure was found "

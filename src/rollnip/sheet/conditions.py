@@ -21,15 +21,15 @@ OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
 _OF_SLOPE = 0.05  # of the nip's slope: least creepage against which slip is measured
 
 
-def violation(attempt: AnyIterate) -> float:
+def violation(iterate: AnyIterate) -> float:
     """Return the residual of the friction conditions, relative; the larger of both interfaces.
 
     Slip is measured against the creepage, or a twentieth of the nip's slope if that is larger.
     """
-    problem, state = attempt.problem, attempt.state
-    slope = 0.5 * attempt.zones.width * problem.nip.curvature
+    problem, state = iterate.problem, iterate.state
+    slope = 0.5 * iterate.zones.width * problem.nip.curvature
     scale = max(_OF_SLOPE * slope, abs(sum(state.creepages)))
-    sides = zip(problem.meshes, attempt.creeps, problem.frictions, strict=True)
+    sides = zip(problem.meshes, iterate.creeps, problem.frictions, strict=True)
     return largest(
         *(
             _violation_on(mesh, state.side(side), creep, friction, scale)

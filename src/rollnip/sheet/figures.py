@@ -40,7 +40,7 @@ class SheetFigures:
     @classmethod
     def of(
         cls,
-        attempt: AnyIterate,
+        iterate: AnyIterate,
         powers: SheetPowers,
         peak: tuple[float, float],
         tension: tuple[float, float],
@@ -50,19 +50,19 @@ class SheetFigures:
 
         Parameters
         ----------
-        attempt, powers : the solution, and its losses and pulls.
+        iterate, powers : the solution, and its losses and pulls.
         peak : the peak pressure and its place.
         tension : the largest and the smallest one.
         strain : the one of largest size.
         """
-        meshes, state = attempt.problem.meshes, attempt.state
+        meshes, state = iterate.problem.meshes, iterate.state
         sides = state.side(0), state.side(1)
         tractions = [float(m.weights @ one.shear) for m, one in zip(meshes, sides, strict=True)]
         first = [
             state.approach,
-            float(meshes[0].weights @ sides[0].pressure) - attempt.lagged.lean,
+            float(meshes[0].weights @ sides[0].pressure) - iterate.lagged.lean,
             sum(state.creepages),
-            attempt.zones.width,
+            iterate.zones.width,
             peak[0],
         ]
         spent = powers.array().tolist()

@@ -61,13 +61,13 @@ def solve_by_iteration(
     if skin_thickness(kind.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     try:
-        attempt = _begun(kind, coarsely(model), kernels, half_width)
+        iterate = _begun(kind, coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
     for share in SHARES_KEPT:
-        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(attempt), share)
+        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(iterate), share)
         try:
-            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), orders)
+            found = _iterate_until_settled(kernels, _Contact(kind, model, iterate), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -79,8 +79,8 @@ def _begun(kind: Formulation[S], model: Model, kernels: PairKernels, half_width:
     """Return a first solution on a coarse mesh, without a previous one."""
     search = kind.search(model, kernels)
     count = round(elements_to_begin_with(kind, half_width, _COARSE))
-    attempt = search.begun(half_width, count)
-    return search.placed(attempt.zones, count, attempt, ROUGHLY)
+    iterate = search.begun(half_width, count)
+    return search.placed(iterate.zones, count, iterate, ROUGHLY)
 
 
 @dataclass
@@ -90,13 +90,15 @@ class _Contact(Generic[S]):
     Attributes
     ----------
     kind, model : formulation of the sheet, and the model with the tolerance of the refined
-    solution. attempt : the last solution. refined : the refined solution; None while the mesh is
-    coarse. restarts : how often the search was restarted.
+        solution.
+    iterate : the last solution.
+    refined : the refined solution; None while the mesh is coarse.
+    restarts : how often the search was restarted.
     """
 
     kind: Formulation[S]
     model: Model
-    attempt: S
+    iterate: S
     refined: Refined[S] | None = None
     restarts: int = 0
 
@@ -106,7 +108,7 @@ class _Contact(Generic[S]):
         Where its zones do not converge, the search is restarted. ``refine``: on finer and finer
         meshes.
         """
-        found = self.kind.holding(self.attempt, kernels)
+        found = self.kind.holding(self.iterate, kernels)
         if refine:
             self._refine(kernels, found)
             return
@@ -117,18 +119,18 @@ class _Contact(Generic[S]):
         search = self.kind.search(model, kernels)
         found = search.placed(found.zones, count, found, CLOSELY)
         if not found.settled and self.restarts < _MOST_RESTARTS:
-            start, stop = _edges(self.attempt)
+            start, stop = _edges(self.iterate)
             found = _begun(self.kind, model, kernels, 0.5 * (stop - start))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
                 return
-        self.attempt = found
+        self.iterate = found
 
     def _refine(self, kernels: PairKernels, before: S) -> None:
         half_width = 0.5 * before.zones.width
         self.refined = refine(self.kind, self.model, kernels, half_width, before)
-        self.attempt = self.refined.attempt
+        self.iterate = self.refined.iterate
 
 
 def _iterate_until_settled(
@@ -136,18 +138,18 @@ def _iterate_until_settled(
 ) -> tuple[PairKernels, Refined[S]] | None:
     """Iterate corrections and contact; see `solve_by_iteration`."""
     kind, tolerance, change = contact.kind, contact.model.tolerance, inf
-    past = Past(even_places(_edges(contact.attempt)))
+    past = Past(even_places(_edges(contact.iterate)))
     least = Least[tuple[PairKernels, Refined[S], S]]()
     for _ in range(MOST_CORRECTIONS):
-        attempt, refined = contact.attempt, contact.refined
-        creepage = sum(attempt.state.creepages)
-        made, is_whole = orders.under(_sides(attempt), creepage, roughly=change == inf)
+        iterate, refined = contact.iterate, contact.refined
+        creepage = sum(iterate.state.creepages)
+        made, is_whole = orders.under(_sides(iterate), creepage, roughly=change == inf)
         smooth = replace(kernels, held=made)
-        own = kind.holding(attempt, smooth)
+        own = kind.holding(iterate, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
         if refined is not None and change < SMALL and is_whole:
-            missed = kind.missed(attempt, own)
+            missed = kind.missed(iterate, own)
             found = on_last_mesh(kind, refined, own, smooth, missed)
             if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
                 break
@@ -155,9 +157,9 @@ def _iterate_until_settled(
         near = min(to_come, change / tolerance)
         begins = refined is None and is_whole and near <= NEARLY
         if begins:
-            past = Past(places_by_the_edges(_edges(attempt)))
+            past = Past(places_by_the_edges(_edges(iterate)))
         contact.solve(kernels, refine=begins)
-        if not contact.attempt.settled and contact.refined is not None:
+        if not contact.iterate.settled and contact.refined is not None:
             break
     if least.found is None:
         return None
@@ -169,29 +171,29 @@ def _iterate_until_settled(
 
 def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
     """Return a refined solution with the residual ``cut`` due to what the correction leaves out."""
-    figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.attempt)
+    figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.iterate)
     losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
     return replace(refined, cut=cut, cut_losses=losses)
 
 
-def _sides(attempt: AnyIterate) -> tuple[Acting, Acting]:
+def _sides(iterate: AnyIterate) -> tuple[Acting, Acting]:
     """Return the tractions of the upper and of the lower roller."""
     out: list[Acting] = []
-    for number, (mesh, sign) in enumerate(zip(attempt.problem.meshes, (1.0, -1.0), strict=True)):
-        one = attempt.state.side(number)
+    for number, (mesh, sign) in enumerate(zip(iterate.problem.meshes, (1.0, -1.0), strict=True)):
+        one = iterate.state.side(number)
         out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))
     return out[0], out[1]
 
 
-def _edges(attempt: AnyIterate) -> tuple[float, float]:
+def _edges(iterate: AnyIterate) -> tuple[float, float]:
     """Return the outer edges of both contacts [mm]."""
-    starts, stops = zip(*(side.edges for side in attempt.zones.sides), strict=True)
+    starts, stops = zip(*(side.edges for side in iterate.zones.sides), strict=True)
     return min(starts), max(stops)
 
 
-def _largest_strain(attempt: AnyIterate) -> float:
+def _largest_strain(iterate: AnyIterate) -> float:
     """Return the largest surface strain in either contact, averaged over an element."""
-    problem, state, most = attempt.problem, attempt.state, 0.0
+    problem, state, most = iterate.problem, iterate.state, 0.0
     for side, mesh in enumerate(problem.meshes):
         x, u = mesh.fine.nodes[1:], mesh.finer(problem.displacements(state, side))
         strains = np.abs(stretch_excess(x, problem.nip, "finite", u)[side] / np.diff(x))

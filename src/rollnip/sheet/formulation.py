@@ -60,25 +60,25 @@ class Formulation(Protocol[S]):
         """Return the allowed relative error of the peak pressure on each side."""
         ...
 
-    def figures(self, attempt: S, geometry: Geometry) -> tuple[SheetFigures, ...]:
+    def figures(self, iterate: S, geometry: Geometry) -> tuple[SheetFigures, ...]:
         """Return the figures, with width and pressure of the upper interface.
 
         Where the lower interface has a width and a pressure of its own, figures with those follow.
         """
         ...
 
-    def pulls(self, attempt: S, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: S, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         ...
 
-    def overlap(self, attempt: S, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: S, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
         ...
 
-    def holding(self, attempt: S, kernels: PairKernels) -> S:
+    def holding(self, iterate: S, kernels: PairKernels) -> S:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         ...
 
-    def missed(self, attempt: S, other: S) -> float:
+    def missed(self, iterate: S, other: S) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         ...

@@ -67,15 +67,15 @@ class SheetPowers:
 
 
 def sheet_powers(
-    attempt: AnyIterate, geometry: Geometry, pulls: Pulls, into_sheet: float
+    iterate: AnyIterate, geometry: Geometry, pulls: Pulls, into_sheet: float
 ) -> SheetPowers:
     """Return the losses and pulls of a solution."""
-    problem, state = attempt.problem, attempt.state
+    problem, state = iterate.problem, iterate.state
     lost = [
         loss_inside(name, problem.nip, geometry, problem.meshes[side], state.side(side))
         for side, name in enumerate(SIDES)
     ]
-    friction = [lost for lost, _ in slip_works(attempt, geometry, pulls)]
+    friction = [lost for lost, _ in slip_works(iterate, geometry, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -87,15 +87,15 @@ def sheet_powers(
     )
 
 
-def slip_works(attempt: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
+def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
     """Return the slip loss of each interface and its work along its own shear [N/mm].
 
     Short waves that the contact conditions do not follow change the stretch, and with it the work
     that a surface transmits by its shear; the slip loss changes by the same amount.
     """
-    rates, out = rates_of(geometry, sum(attempt.state.creepages)), []
+    rates, out = rates_of(geometry, sum(iterate.state.creepages)), []
     for side, ((lost, reversed_slip), sign) in enumerate(
-        zip(smooth_works(attempt), (1.0, -1.0), strict=True)
+        zip(smooth_works(iterate), (1.0, -1.0), strict=True)
     ):
         whole, smooth = pulls[side]
         lost += sign * rates[side] * (whole - smooth)
@@ -103,23 +103,23 @@ def slip_works(attempt: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tu
     return out
 
 
-def smooth_works(attempt: AnyIterate) -> list[tuple[float, float]]:
+def smooth_works(iterate: AnyIterate) -> list[tuple[float, float]]:
     """Return `slip_works` for only the creep that the contact conditions follow [N/mm]."""
-    problem, state, out = attempt.problem, attempt.state, []
+    problem, state, out = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
-        work = problem.sheared(state, side) * (attempt.creeps[side][:-1] / mesh.dx[:-1])
+        work = problem.sheared(state, side) * (iterate.creeps[side][:-1] / mesh.dx[:-1])
         out.append(slip_losses(work, slip_zones(state.side(side).states)))
     return out
 
 
-def off_the_moments(attempt: AnyIterate, spent: SheetPowers) -> Array:
+def off_the_moments(iterate: AnyIterate, spent: SheetPowers) -> Array:
     """Return the mismatch of torques and moments of the tractions over the radii, (2,) [N/mm].
 
     In equilibrium of all orders they are equal. Both come from finite-element displacements, and a
     stretch of several times the original length beside a slipping edge is less accurate than the
     height there.
     """
-    problem, state, out = attempt.problem, attempt.state, np.zeros(2)
+    problem, state, out = iterate.problem, iterate.state, np.zeros(2)
     driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
     for side, mesh in enumerate(problem.meshes):
         u = mesh.uncut(problem.displacements(state, side))

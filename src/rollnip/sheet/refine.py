@@ -35,16 +35,16 @@ class Refined(Generic[T]):
 
     Attributes
     ----------
-    attempt : the solution on the finest meshes. on_sides, errors_on_sides : figures and errors with
-    width, peak pressure and its place of the upper
-        interface; for a plate, those of the lower interface follow. Unknown errors are inf.
+    iterate : the solution on the finest meshes.
+    on_sides, errors_on_sides : figures and errors with width, peak pressure and its place of the
+        upper interface; for a plate, those of the lower interface follow. Unknown errors are inf.
     residual : of the contact conditions.
     count : approximate number of elements.
     cut : residual due to what the correction of "finite" leaves out.
     cut_losses : change of the friction loss of each side due to the same [N/mm].
     """
 
-    attempt: T
+    iterate: T
     on_sides: tuple[SheetFigures, ...]
     errors_on_sides: tuple[SheetFigures, ...]
     residual: float
@@ -94,26 +94,26 @@ def refine(
         where no mesh size has a solution.
     """
     search, count = kind.search(model, kernels), elements_to_begin_with(kind, half_width)
-    attempt = search.begun(half_width, round(count)) if before is None else before
+    iterate = search.begun(half_width, round(count)) if before is None else before
     history: list[SizeOfMesh] = []
     best: Refined[S] | None = None
     failures = last_count = 0
     while count <= _MOST_ELEMENTS and failures < _MOST_FAILURES:
         try:
             closely = _closely(count) if history else ROUGHLY
-            attempt = search.placed(attempt.zones, round(count), attempt, closely)
+            iterate = search.placed(iterate.zones, round(count), iterate, closely)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        here = _size_of(kind, model.geometry, attempt, count)
-        errors = estimated_errors(kind.nip, attempt.problem.meshes, [*history, here])
+        here = _size_of(kind, model.geometry, iterate, count)
+        errors = estimated_errors(kind.nip, iterate.problem.meshes, [*history, here])
         excess = _excess(kind, model, here, errors)
-        if attempt.settled and history and excess > 1.0:
-            history = _with_zones_of(kind, model, search, attempt, history, last_count)
-            errors = estimated_errors(kind.nip, attempt.problem.meshes, [*history, here])
+        if iterate.settled and history and excess > 1.0:
+            history = _with_zones_of(kind, model, search, iterate, history, last_count)
+            errors = estimated_errors(kind.nip, iterate.problem.meshes, [*history, here])
             excess = _excess(kind, model, here, errors)
-        latest = Refined(attempt, here.figures, errors, violation(attempt), round(count))
-        if attempt.settled:
+        latest = Refined(iterate, here.figures, errors, violation(iterate), round(count))
+        if iterate.settled:
             history.append(here)
             best, failures, last_count = latest, 0, round(count)
             if excess <= 1.0 and latest.residual <= model.tolerance:
@@ -136,9 +136,9 @@ def elements_to_begin_with(
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
-def _size_of(kind: Formulation[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
+def _size_of(kind: Formulation[S], geometry: Geometry, iterate: S, count: float) -> SizeOfMesh:
     """Return a solution in the form that the error estimates take."""
-    return SizeOfMesh(count, kind.figures(attempt, geometry), attempt.zones)
+    return SizeOfMesh(count, kind.figures(iterate, geometry), iterate.zones)
 
 
 def _excess(
@@ -159,7 +159,7 @@ def _with_zones_of(
     kind: Formulation[S],
     model: Model,
     search: ZoneSearch[S],
-    attempt: S,
+    iterate: S,
     history: list[SizeOfMesh],
     count: int,
 ) -> list[SizeOfMesh]:
@@ -169,13 +169,13 @@ def _with_zones_of(
     about its own error. The last size, of ``count`` elements, is then solved again with nodes at
     the ends of the new zones.
     """
-    if not history or history[-1].zones.is_like(attempt.zones):
+    if not history or history[-1].zones.is_like(iterate.zones):
         return history
     try:
-        again = search.placed(attempt.zones, count, attempt, ROUGHLY)
+        again = search.placed(iterate.zones, count, iterate, ROUGHLY)
     except np.linalg.LinAlgError:
         return history
-    if not (again.settled and again.zones.is_like(attempt.zones)):
+    if not (again.settled and again.zones.is_like(iterate.zones)):
         return history
     return [_size_of(kind, model.geometry, again, count)]
 
@@ -201,7 +201,7 @@ def _with_overlap(
     kind: Formulation[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
 ) -> Refined[S]:
     """Return a solution whose residual and errors include the check outside the contact."""
-    left = max(refined.residual, kind.overlap(refined.attempt, kernels, geometry))
+    left = max(refined.residual, kind.overlap(refined.iterate, kernels, geometry))
     return with_errors_of_powers(kind, replace(refined, residual=left), geometry)
 
 
@@ -213,23 +213,23 @@ def with_errors_of_powers(
     Slip along its own shear cannot be counted as a loss. Only at finite strain are the moments of
     the tractions as exact as the torques.
     """
-    attempt = refined.attempt
-    works = slip_works(attempt, geometry, kind.pulls(attempt, geometry))
+    iterate = refined.iterate
+    works = slip_works(iterate, geometry, kind.pulls(iterate, geometry))
     left = np.zeros(2)
     if geometry == "finite":
-        left = off_the_moments(attempt, refined.figures.powers)
+        left = off_the_moments(iterate, refined.figures.powers)
     errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_on_sides)
     return replace(refined, errors_on_sides=errors)
 
 
 def on_last_mesh(
-    kind: Formulation[S], refined: Refined[S], attempt: S, kernels: PairKernels, left: float
+    kind: Formulation[S], refined: Refined[S], iterate: S, kernels: PairKernels, left: float
 ) -> Refined[S]:
     """Return a refined solution at finite strain with other lagged terms on its last mesh.
 
     ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(attempt), kind.overlap(attempt, kernels, "finite"))
-    figures = kind.figures(attempt, "finite")
-    found = replace(refined, attempt=attempt, on_sides=figures, residual=left)
+    left = max(left, violation(iterate), kind.overlap(iterate, kernels, "finite"))
+    figures = kind.figures(iterate, "finite")
+    found = replace(refined, iterate=iterate, on_sides=figures, residual=left)
     return with_errors_of_powers(kind, found, "finite")

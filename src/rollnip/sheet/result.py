@@ -29,15 +29,15 @@ class SheetProfiles(Sealed):
 
     Attributes
     ----------
-    x : (n,) [mm], towards the leading edge. shear_lower : (n,) q_l on the sheet's underside along
-    +x; on the lower roller it is -q_l [MPa]. tension : (n,) per width [N/mm]; outside the nip the
-    prescribed tensions. strain : (n,) of the sheet's middle along the nip. slip_velocity_lower :
-    (n,) of the sheet relative to the lower surface, along +x [mm/s]; nan outside
-        the contact; None without speed.
+    x : (n,) [mm], towards the leading edge.
+    shear_lower : (n,) q_l on the sheet's underside along +x; on the lower roller it is -q_l [MPa].
+    tension : (n,) per width [N/mm]; outside the nip the prescribed tensions.
+    strain : (n,) of the sheet's middle along the nip.
+    slip_velocity_lower : (n,) of the sheet relative to the lower surface, along +x [mm/s]; nan
+        outside the contact; None without speed.
     pressure_lower : (n,) on the lower interface [MPa]; for a membrane the same as on the upper one.
     height : (n,) height of the sheet's path above the top of the undeformed lower roller, without
-    the
-        sheet's thickness [mm]; for a membrane halfway between the surfaces.
+        the sheet's thickness [mm]; for a membrane halfway between the surfaces.
     """
 
     x: Array
@@ -92,16 +92,16 @@ class SheetResult:
         sheet free of tension.
     feed_upper, feed_lower : V_s/V_u - 1 and V_s/V_l - 1: relative excess of the length of sheet
         fed, free of tension, over the length that rolled off each roller.
-    speed : V_s [mm/s]; None without speed. traction_upper, traction_lower : T_u and T_l [N/mm].
-    tension_max, tension_min : in the nip [N/mm]. strain_max : strain of largest size, with its
-    sign. friction_upper, friction_lower : losses by slip on each interface [N/s]; None without
-    speed. power : power into the sheet: work against its tensions and the elastic energy that it
-    carries away
-        [N/s]; None without speed.
+    speed : V_s [mm/s]; None without speed.
+    traction_upper, traction_lower : T_u and T_l [N/mm].
+    tension_max, tension_min : in the nip [N/mm].
+    strain_max : strain of largest size, with its sign.
+    friction_upper, friction_lower : losses by slip on each interface [N/s]; None without speed.
+    power : power into the sheet: work against its tensions and the elastic energy that it carries
+        away [N/s]; None without speed.
     slip_share_upper, slip_share_lower : share of the nip width over which each interface slips.
     zones_lower : stick and slip zones on the lower interface; their directions are those of the
-    slip
-        velocity of the sheet relative to the lower surface.
+        slip velocity of the sheet relative to the lower surface.
     bending_length : length over which bending stiffness acts on these rollers, (D d/E)^(1/4) [mm].
     bends : whether the bending stiffness is included; otherwise the sheet is a membrane.
     nip_width_lower : width of the lower interface [mm]; the nip width is that of the upper one.

@@ -163,7 +163,7 @@ class SheetSolution(SmoothSolution):
             return None if speed is None else speed * value
 
         pulls = self._figure("traction_upper"), self.traction
-        pressed = self.load + self.refined.attempt.lagged.lean
+        pressed = self.load + self.refined.iterate.lagged.lean
         return SheetResult(
             creepage_upper=state.creepage,
             creepage_lower=state.creepage_lower,
@@ -192,7 +192,7 @@ class SheetSolution(SmoothSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        shear = self.refined.attempt.problem.mesh.acting(self._state.shear_lower)
+        shear = self.refined.iterate.problem.mesh.acting(self._state.shear_lower)
         pressure = self._at(x, self.final.pressure)
         surfaces = self.deformed_surfaces
         lower, height = self._at(x, shear), 0.5 * (surfaces.upper + surfaces.lower)
@@ -254,7 +254,7 @@ class SheetSolution(SmoothSolution):
 
     def _traction_slope(self) -> float:
         """Return the derivative of both tractions by the creepage, see `traction_slope` [N/mm]."""
-        return traction_slope(self.refined.attempt)
+        return traction_slope(self.refined.iterate)
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, at least the uncertainty that the model's own order leaves."""
@@ -264,7 +264,7 @@ class SheetSolution(SmoothSolution):
         least = shares * scales(self.nip, figures)
         sheet = self.nip.sheet
         if sheet is not None and sheet.bending is None and not self.bends:
-            edges = self.refined.attempt.zones.edges
+            edges = self.refined.iterate.zones.edges
             wrapped = wrapped_length(self.nip, self.deformed_surfaces, edges)
             least += left_by_bending_freely(self.nip, figures, wrapped)
         out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
@@ -287,11 +287,11 @@ class SheetSolution(SmoothSolution):
         return self._zones(0)
 
     def _zones(self, side: int) -> tuple[Zone, ...]:
-        return zones_of(self.refined.attempt.zones.sides[side])
+        return zones_of(self.refined.iterate.zones.sides[side])
 
     @property
     def _state(self) -> MembraneState:
-        return self.refined.attempt.state
+        return self.refined.iterate.state
 
     @property
     def _spent(self) -> SheetPowers:
@@ -306,7 +306,7 @@ class SheetSolution(SmoothSolution):
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Return the tractions on one surface in its own frame: (q_u, p) above, (-q_l, p) below."""
-        mesh, state = self.refined.attempt.problem.mesh, self._state
+        mesh, state = self.refined.iterate.problem.mesh, self._state
         shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
@@ -323,7 +323,7 @@ class SheetSolution(SmoothSolution):
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
-        sheet, problem, state = self.nip.sheet, self.refined.attempt.problem, self._state
+        sheet, problem, state = self.nip.sheet, self.refined.iterate.problem, self._state
         assert sheet is not None
         nodes, mesh = self.final.nodes, problem.mesh
         pull = np.zeros(nodes.size)
@@ -344,7 +344,7 @@ class SheetSolution(SmoothSolution):
         """Return the loss of the sheet's thickness under load [mm]."""
         sheet = self.nip.sheet
         assert sheet is not None
-        acting = self.refined.attempt.problem.mesh.acting(self._state.pressure)
+        acting = self.refined.iterate.problem.mesh.acting(self._state.pressure)
         thinner = squeezed(sheet, x, self.final.nodes, acting[:, None])[:, 0]
         return thinner + sheet.stretch_by_pressure * self._tension(x)
 
@@ -352,7 +352,7 @@ class SheetSolution(SmoothSolution):
     def _points(self) -> tuple[Array, Displacements]:
         """Places in and outside the nip, and the displacements of both surfaces there."""
         x = fine_points(self.final)
-        mesh, state = self.refined.attempt.problem.mesh, self._state
+        mesh, state = self.refined.iterate.problem.mesh, self._state
         acting = np.stack(
             [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
         )
@@ -364,12 +364,12 @@ class SheetSolution(SmoothSolution):
 
     def _sliding(self) -> tuple[Array, Array]:
         """Return creeps per length in full sliding, see `grip.first_to_slide`."""
-        attempt, state = self.refined.attempt, self._state
+        iterate, state = self.refined.iterate, self._state
         mu_u, mu_l = frictions_of(self.nip)
         above, below = mu_u * state.pressure, -mu_l * state.pressure
         slid = replace(state, shear=above, shear_lower=below, creepage=0.0, creepage_lower=0.0)
-        _, upper, lower = attempt.problem.gap_and_creeps(slid, attempt.lagged)[:, :-1]
-        length = attempt.problem.dx[:-1]
+        _, upper, lower = iterate.problem.gap_and_creeps(slid, iterate.lagged)[:, :-1]
+        length = iterate.problem.dx[:-1]
         return upper / length, lower / length
 
     def _slip(self, side: int) -> Array | None:
@@ -377,7 +377,7 @@ class SheetSolution(SmoothSolution):
         speed = self.nip.speed
         if speed is None:
             return None
-        (x, u), attempt = self._points, self.refined.attempt
+        (x, u), iterate = self._points, self.refined.iterate
         dx, state = np.diff(x), self._state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = self._strain_of_sheet(x)
@@ -387,7 +387,7 @@ class SheetSolution(SmoothSolution):
         rate = creepage + sign * (stretch - mean)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
-        for zone in attempt.zones.sides[side].zones:
+        for zone in iterate.zones.sides[side].zones:
             within = inside_zone(x, zone)
             sticks = zone.state == State.STICK
             out[within] = 0.0 if sticks else -speed * np.interp(x[within], middle, rate)

@@ -117,10 +117,10 @@ def _bending_freely(
             + validity_reservations(nip, model, final, strains)
         ),
         solver=SolverInfo(
-            elements=int(refined.attempt.problem.mesh.nodes.size - 1),
-            iterations=refined.attempt.steps,
+            elements=int(refined.iterate.problem.mesh.nodes.size - 1),
+            iterations=refined.iterate.steps,
             residual=refined.residual,
-            geometry_change=refined.attempt.change,
+            geometry_change=refined.iterate.change,
             seconds=perf_counter() - start,
             version=version,
         ),
@@ -141,9 +141,9 @@ def _refined(
     """
     left: list[Geometry] = []
     while True:
-        found = _attempt(nip, model, cache)
+        found = _solve_in_geometry(nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
-        if found is not None and (simpler is None or found[1].attempt.settled):
+        if found is not None and (simpler is None or found[1].iterate.settled):
             return model, *found, solved_instead(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
@@ -169,7 +169,7 @@ def _none_found(nip: Nip) -> str:
     return "No solution with this sheet was found; try a larger load or other tensions."
 
 
-def _attempt(
+def _solve_in_geometry(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[PairKernels, Refined[MembraneIterate]] | None:
     """Return influence functions and the solution in one geometry; None where none exists."""
@@ -187,35 +187,35 @@ def _attempt(
 
 def as_round(nip: Nip, refined: Refined[MembraneIterate]) -> Round:
     """Return a membrane solution as the `Round` of a bare nip, with the shear of the upper side."""
-    attempt, figures = refined.attempt, refined.figures
-    mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
-    total = attempt.state.creepage + attempt.state.creepage_lower
+    iterate, figures = refined.iterate, refined.figures
+    mesh, n = iterate.problem.mesh, iterate.problem.mesh.inner.size
+    total = iterate.state.creepage + iterate.state.creepage_lower
     problem = ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + attempt.lagged.clearance,
+        clearance=0.5 * nip.curvature * mesh.inner**2 + iterate.lagged.clearance,
         influence=mesh.influence,
         creep_length=mesh.dx,
         creep_offset=np.zeros(n),
         friction=nip.friction,
-        control=Control(load=None, approach=attempt.state.approach, traction=None, creepage=total),
+        control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
     )
     return Round(
         mesh=mesh,
         problem=problem,
-        state=attempt.state,
+        state=iterate.state,
         second=SecondOrder(
-            attempt.lagged.clearance,
+            iterate.lagged.clearance,
             np.zeros(n),
-            attempt.lagged.offsets[0],
-            attempt.lagged.traction,
+            iterate.lagged.offsets[0],
+            iterate.lagged.traction,
         ),
-        zones=attempt.zones.upper.zones,
+        zones=iterate.zones.upper.zones,
         figures=figures.watched,
         error=refined.errors.watched,
-        steps=attempt.steps,
-        settled=attempt.settled,
-        geometry_change=attempt.change,
+        steps=iterate.steps,
+        settled=iterate.settled,
+        geometry_change=iterate.change,
         residual=refined.residual,
         cut=refined.cut,
     )

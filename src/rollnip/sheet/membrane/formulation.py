@@ -42,51 +42,51 @@ class MembraneFormulation:
         """Return the allowed relative error of the peak pressure."""
         return (model.tolerance,)
 
-    def figures(self, attempt: MembraneIterate, geometry: Geometry) -> tuple[SheetFigures]:
+    def figures(self, iterate: MembraneIterate, geometry: Geometry) -> tuple[SheetFigures]:
         """Return the figures of a solution."""
-        problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+        problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
         peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-        tension, strain = problem.tension_at(state), strain_at(attempt)
+        tension, strain = problem.tension_at(state), strain_at(iterate)
         widest = 1.0 if strain.max() > -strain.min() else -1.0
-        into_sheet = _into_sheet(attempt, geometry)
+        into_sheet = _into_sheet(iterate, geometry)
         return (
             SheetFigures.of(
-                attempt,
-                sheet_powers(attempt, geometry, self.pulls(attempt, geometry), into_sheet),
+                iterate,
+                sheet_powers(iterate, geometry, self.pulls(iterate, geometry), into_sheet),
                 peak,
                 (_largest_of(mesh, tension), -_largest_of(mesh, -tension)),
                 widest * _largest_of(mesh, widest * strain),
             ),
         )
 
-    def pulls(self, attempt: MembraneIterate, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: MembraneIterate, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
-        problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+        problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
         u = mesh.displacements(state)
         whole = smooth = pulls_of(problem, geometry, state, mesh.uncut(u))
         if mesh.held is not None:
             smooth = pulls_of(problem, geometry, state, u)
         return tuple(zip(whole, smooth, strict=True))
 
-    def overlap(self, attempt: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
-        return overlap(attempt, kernels, geometry)
+        return overlap(iterate, kernels, geometry)
 
-    def holding(self, attempt: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
+    def holding(self, iterate: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
-        problem = replace(attempt.problem, mesh=attempt.problem.mesh.holding(kernels))
-        lagged = lagged_terms(problem, "finite", attempt.state)
-        change = change_of(lagged, attempt.lagged, problem, attempt.state)
-        return replace(attempt, problem=problem, lagged=lagged, change=change)
+        problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(kernels))
+        lagged = lagged_terms(problem, "finite", iterate.state)
+        change = change_of(lagged, iterate.lagged, problem, iterate.state)
+        return replace(iterate, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, attempt: MembraneIterate, other: MembraneIterate) -> float:
+    def missed(self, iterate: MembraneIterate, other: MembraneIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
-        return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
+        return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 
 
-def strain_at(attempt: MembraneIterate) -> Array:
+def strain_at(iterate: MembraneIterate) -> Array:
     """Return the strain of the sheet at the nodes, (n,)."""
-    problem, state, sheet = attempt.problem, attempt.state, attempt.problem.sheet
+    problem, state, sheet = iterate.problem, iterate.state, iterate.problem.sheet
     tension = sheet.stretch_by_tension * problem.tension_at(state)
     return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
@@ -100,12 +100,12 @@ def _largest_of(mesh: MembraneMesh, values: Array) -> float:
     return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
 
 
-def _into_sheet(attempt: MembraneIterate, geometry: Geometry) -> float:
+def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
     The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
     """
-    problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+    problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
     above, below = problem.sheared(state, 0), problem.sheared(state, 1)
     pushed, sheared = above - below, above + below
     strain = (problem.strain_over(state) / mesh.dx)[:-1]
@@ -118,7 +118,7 @@ def _into_sheet(attempt: MembraneIterate, geometry: Geometry) -> float:
     return taken + rate * (float(pushed @ strain) - bent)
 
 
-def traction_slope(attempt: MembraneIterate) -> float:
+def traction_slope(iterate: MembraneIterate) -> float:
     """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
 
     It turns an error of the creepage at a given traction into one of the traction at a given
@@ -126,8 +126,8 @@ def traction_slope(attempt: MembraneIterate) -> float:
     """
     tractions = []
     for creepage in (0.0, 1.0):  # the tractions are linear in it
-        nip = replace(attempt.problem.nip, tangential=Creepage(creepage))
-        problem = replace(attempt.problem, nip=nip)
-        found = FactorisedMembrane.of(problem, attempt.state.both_states).solved(attempt.lagged)
+        nip = replace(iterate.problem.nip, tangential=Creepage(creepage))
+        problem = replace(iterate.problem, nip=nip)
+        found = FactorisedMembrane.of(problem, iterate.state.both_states).solved(iterate.lagged)
         tractions.append(float(problem.mesh.weights @ found.shear_lower))
     return abs(tractions[1] - tractions[0])

@@ -115,7 +115,7 @@ class MembraneSearch:
         near = min(misplacement, _NEARLY_PLACED)
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
-        attempt = before
+        iterate = before
         self.moves.refined()
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
@@ -127,16 +127,16 @@ class MembraneSearch:
             if elements is None or wanted_crowding != crowding or elements.size != breaks.size - 1:
                 elements = elements_of_zones(breaks, count, wanted_crowding, _LEAST_SHARE)
                 crowding = wanted_crowding
-            problem = self._problem(zones, (elements, crowding), attempt)
-            start = carried(attempt, problem)
-            attempt = self._solved(problem, zones, start, steps, (near, misplacement))
-            steps = attempt.steps
-            called = _ZonesByStates(attempt, self._slack)
+            problem = self._problem(zones, (elements, crowding), iterate)
+            start = carried(iterate, problem)
+            iterate = self._solved(problem, zones, start, steps, (near, misplacement))
+            steps = iterate.steps
+            called = _ZonesByStates(iterate, self._slack)
             is_near = known <= _NEARLY_PLACED
-            proposed = zones.moved(problem, attempt.state, called, is_near=is_near)
+            proposed = zones.moved(problem, iterate.state, called, is_near=is_near)
             misplacement = proposed.distance(zones)
             near = known = min(known, misplacement)
-            is_met = violation(attempt) <= self._slack
+            is_met = violation(iterate) <= self._slack
             stay = misplacement > _FAIRLY_PLACED and not changes
             # If conditions are violated and the nodal states call for unlike zones, the states
             # are checked at once; without violation only when no end moves any more, and once.
@@ -146,8 +146,8 @@ class MembraneSearch:
             else:
                 stay = stay or (moves and called.are_like)
             if stay:
-                if misplacement <= placed and attempt.settled and is_fine and is_met:
-                    return replace(attempt, zones=proposed, misplacement=misplacement)
+                if misplacement <= placed and iterate.settled and is_fine and is_met:
+                    return replace(iterate, zones=proposed, misplacement=misplacement)
                 zones = (
                     proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
                 )
@@ -155,11 +155,11 @@ class MembraneSearch:
             changes += 1
             if changes > _MOST_CHANGES:
                 break
-            other = self._other(attempt, proposed)
-            attempt, zones = (attempt, proposed) if other is None else other
-            steps, elements = attempt.steps, None
-        proper = zones if zones.is_proper else attempt.zones
-        return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
+            other = self._other(iterate, proposed)
+            iterate, zones = (iterate, proposed) if other is None else other
+            steps, elements = iterate.steps, None
+        proper = zones if zones.is_proper else iterate.zones
+        return replace(iterate, zones=proper, settled=False, misplacement=misplacement)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return the crowding of nodes at zone ends, ``known`` to this fraction of the width."""
@@ -243,17 +243,17 @@ class MembraneSearch:
         return min(self.model.tolerance, _SLACK)
 
     def _other(
-        self, attempt: MembraneIterate, edges: MembraneZones
+        self, iterate: MembraneIterate, edges: MembraneZones
     ) -> tuple[MembraneIterate, MembraneZones] | None:
         """Return other zones between known edges, found node by node; None where there are none."""
-        problem = attempt.problem
-        state = slipping(problem, attempt.state, attempt.lagged, self._slack)
+        problem = iterate.problem
+        state = slipping(problem, iterate.state, iterate.lagged, self._slack)
         if state is None:
-            state = solve_node_by_node(problem, attempt.lagged, 0.5 * attempt.zones.width)
+            state = solve_node_by_node(problem, iterate.lagged, 0.5 * iterate.zones.width)
         zones = MembraneZones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None
-        return replace(attempt, state=state, steps=attempt.steps + state.steps), zones
+        return replace(iterate, state=state, steps=iterate.steps + state.steps), zones
 
 
 @dataclass(frozen=True)
@@ -262,32 +262,32 @@ class _ZonesByStates:
 
     Attributes
     ----------
-    attempt : the solution.
+    iterate : the solution.
     slack : see `next_slip`.
     """
 
-    attempt: MembraneIterate
+    iterate: MembraneIterate
     slack: float
 
     @cached_property
     def _wanted(self) -> States:
-        attempt = self.attempt
-        return next_slip(attempt.problem, attempt.state, attempt.creeps, self.slack)
+        iterate = self.iterate
+        return next_slip(iterate.problem, iterate.state, iterate.creeps, self.slack)
 
     @cached_property
     def _found(self) -> MembraneZones | None:
         """Return the zones of these states, if they are like those of the solution."""
-        attempt, wanted = self.attempt, self._wanted
-        state = replace(attempt.state, states=wanted[0], states_lower=wanted[1])
-        frictions, x = attempt.problem.frictions, attempt.problem.mesh.inner
-        found = MembraneZones.found(x, state, frictions, attempt.zones.edges)
+        iterate, wanted = self.iterate, self._wanted
+        state = replace(iterate.state, states=wanted[0], states_lower=wanted[1])
+        frictions, x = iterate.problem.frictions, iterate.problem.mesh.inner
+        found = MembraneZones.found(x, state, frictions, iterate.zones.edges)
         found = None if found is None else found.without_slivers()
-        return found if found is not None and found.is_like(attempt.zones) else None
+        return found if found is not None and found.is_like(iterate.zones) else None
 
     @cached_property
     def are_like(self) -> bool:
         """Return whether the states make zones like those of the solution."""
-        same = np.array_equal(self._wanted, self.attempt.state.both_states)
+        same = np.array_equal(self._wanted, self.iterate.state.both_states)
         return same or self._found is not None
 
     def creeps_back(self, number: int) -> Mask:
@@ -296,8 +296,8 @@ class _ZonesByStates:
         There the surfaces creep against their own shear, at the node of the transition and at the
         next one: the shear reaches its bound as at the end of a zone, but not for the first time.
         """
-        side = self.attempt.zones.sides[number]
-        ends = side.ends(self.attempt.problem.mesh.inner)[1:-1]
+        side = self.iterate.zones.sides[number]
+        ends = side.ends(self.iterate.problem.mesh.inner)[1:-1]
         sticks = self._wanted[number] == State.STICK
         into_slip = np.where(side.states[:-1] == State.STICK, 1, -1)
         return np.asarray(sticks[ends] & sticks[ends + into_slip])
@@ -305,13 +305,13 @@ class _ZonesByStates:
     @property
     def sides(self) -> tuple[Layout, Layout]:
         """Return the resulting zones of both interfaces; if unlike, those of the solution."""
-        return (self._found or self.attempt.zones).sides
+        return (self._found or self.iterate.zones).sides
 
 
-def overlap(attempt: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
     """Return the relative overlap outside the contact, or the relative tension in it."""
-    problem, state = attempt.problem, attempt.state
-    nip, mesh, width = problem.nip, problem.mesh, attempt.zones.width
+    problem, state = iterate.problem, iterate.state
+    nip, mesh, width = problem.nip, problem.mesh, iterate.zones.width
     away = width * OUTSIDE
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
     acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
@@ -325,9 +325,9 @@ def overlap(attempt: MembraneIterate, kernels: PairKernels, geometry: Geometry) 
     return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 
-def carried(attempt: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
+def carried(iterate: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
     """Return the lagged terms of a solution, interpolated to another mesh."""
-    old, new, lagged = attempt.problem.mesh, problem.mesh, attempt.lagged
+    old, new, lagged = iterate.problem.mesh, problem.mesh, iterate.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
     offsets = [new.dx * np.interp(places, middles, row / old.dx) for row in lagged.offsets]
     clearance = np.interp(new.inner, old.inner, lagged.clearance)

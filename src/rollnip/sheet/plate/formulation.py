@@ -55,30 +55,30 @@ class PlateFormulation:
         return upper, lower
 
     def figures(
-        self, attempt: PlateIterate, geometry: Geometry
+        self, iterate: PlateIterate, geometry: Geometry
     ) -> tuple[SheetFigures, SheetFigures]:
         """Return figures with width and pressure of the upper interface, and of the lower one."""
-        problem, state = attempt.problem, attempt.state
+        problem, state = iterate.problem, iterate.state
         x = _turning_places(problem, state)
         tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
-        pulls = self.pulls(attempt, geometry)
+        pulls = self.pulls(iterate, geometry)
         upper = SheetFigures.of(
-            attempt,
-            sheet_powers(attempt, geometry, pulls, _into_sheet(attempt)),
+            iterate,
+            sheet_powers(iterate, geometry, pulls, _into_sheet(iterate)),
             highest(problem.meshes[0], state.pressure[0]),
             (float(tension.max()), float(tension.min())),
             float(strain[np.argmax(np.abs(strain))]),
         )
         lower = upper.values.copy()
         lower[_ON_LOWER] = (
-            attempt.zones.lower.width,
+            iterate.zones.lower.width,
             *highest(problem.meshes[1], state.pressure[1]),
         )
         return upper, SheetFigures(lower)
 
-    def pulls(self, attempt: PlateIterate, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: PlateIterate, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
-        problem, state, out = attempt.problem, attempt.state, []
+        problem, state, out = iterate.problem, iterate.state, []
         for side, mesh in enumerate(problem.meshes):
             u = problem.displacements(state, side)
             whole = smooth = pull_of(problem, geometry, state, side, mesh.uncut(u))
@@ -87,25 +87,25 @@ class PlateFormulation:
             out.append((whole, smooth))
         return out
 
-    def overlap(self, attempt: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
-        return overlap(attempt, kernels, geometry)
+        return overlap(iterate, kernels, geometry)
 
-    def holding(self, attempt: PlateIterate, kernels: PairKernels) -> PlateIterate:
+    def holding(self, iterate: PlateIterate, kernels: PairKernels) -> PlateIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
-        meshes = list(attempt.problem.meshes)
+        meshes = list(iterate.problem.meshes)
         for side, roller in enumerate((self.nip.upper, self.nip.lower)):
             if not roller.is_rigid and kernels.held is not None:
                 held = kernels.held.of_side(side)
                 meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
-        problem = replace(attempt.problem, meshes=(meshes[0], meshes[1]))
-        lagged = lagged_terms(problem, "finite", attempt.state, attempt.lagged)
-        change = change_of(lagged, attempt.lagged, problem, attempt.state)
-        return replace(attempt, problem=problem, lagged=lagged, change=change)
+        problem = replace(iterate.problem, meshes=(meshes[0], meshes[1]))
+        lagged = lagged_terms(problem, "finite", iterate.state, iterate.lagged)
+        change = change_of(lagged, iterate.lagged, problem, iterate.state)
+        return replace(iterate, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, attempt: PlateIterate, other: PlateIterate) -> float:
+    def missed(self, iterate: PlateIterate, other: PlateIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
-        return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
+        return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 
 
 def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
@@ -124,15 +124,15 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
 
 
-def _into_sheet(attempt: PlateIterate) -> float:
+def _into_sheet(iterate: PlateIterate) -> float:
     """Return the power of the shears on the faces of the sheet, over V [N/mm].
 
     The faces run at V_s (1 + e -+ h y''/2). "linear" keeps the products with the strains, which are
     of second order.
     """
-    problem, state = attempt.problem, attempt.state
+    problem, state = iterate.problem, iterate.state
     rate, taken = sheet_rate(*state.creepages), 0.0
-    curved = attempt.lagged.curved
+    curved = iterate.lagged.curved
     rotations = problem.rotations(state, curved)
     for side, mesh in enumerate(problem.meshes):
         pushed, sign = problem.sheared(state, side), SIGNS[side]

@@ -27,13 +27,13 @@ Array = NDArray[np.float64]
 PlateIterate = Iterate[PlateZones, PlateProblem, PlateState, PlateTerms]
 
 
-def shear_over(attempt: PlateIterate) -> float:
+def shear_over(iterate: PlateIterate) -> float:
     """Return the largest excess of a sticking node's shear over its bound, over the largest bound.
 
     Infinite where one side has no pressure.
     """
-    state, most = attempt.state, 0.0
-    for side, friction in enumerate(attempt.problem.frictions):
+    state, most = iterate.state, 0.0
+    for side, friction in enumerate(iterate.problem.frictions):
         bound = friction * np.maximum(state.pressure[side], 0.0)
         if not np.any(state.pressure[side] > 0.0):
             return inf
@@ -42,13 +42,13 @@ def shear_over(attempt: PlateIterate) -> float:
     return most
 
 
-def pulls_at_edges(attempt: PlateIterate) -> bool:
+def pulls_at_edges(iterate: PlateIterate) -> bool:
     """Return whether the pressure beside any edge is tensile; see `Mesh.pulls_at_edge`."""
-    sides = zip(attempt.problem.meshes, attempt.state.pressure, strict=True)
+    sides = zip(iterate.problem.meshes, iterate.state.pressure, strict=True)
     return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
 
 
-def added_to_peaks(attempt: PlateIterate, proposed: PlateZones) -> float:
+def added_to_peaks(iterate: PlateIterate, proposed: PlateZones) -> float:
     """Return the relative amount by which misplaced edges raise the peak pressures beside them.
 
     An edge that lies too far inwards by delta gives p ~ sqrt(y) + delta/(2 sqrt(y)) at the distance
@@ -57,8 +57,8 @@ def added_to_peaks(attempt: PlateIterate, proposed: PlateZones) -> float:
     ``proposed``: zones with their edges where they should be.
     """
     most = 0.0
-    for side, mesh in enumerate(attempt.problem.meshes):
-        x, top = mesh.inner, int(np.argmax(attempt.state.pressure[side]))
+    for side, mesh in enumerate(iterate.problem.meshes):
+        x, top = mesh.inner, int(np.argmax(iterate.state.pressure[side]))
         for node, edge, place in zip((1, x.size - 2), (0, -1), proposed.edges[side], strict=True):
             if top == node:
                 off, away = abs(place - x[edge]), abs(x[node] - x[edge])
@@ -66,26 +66,26 @@ def added_to_peaks(attempt: PlateIterate, proposed: PlateZones) -> float:
     return most
 
 
-def overlap(attempt: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
     """Return the relative overlap outside the contacts, or the relative tension in them."""
-    problem, state, width = attempt.problem, attempt.state, attempt.zones.width
+    problem, state, width = iterate.problem, iterate.state, iterate.zones.width
     parts = []
     for side, mesh in enumerate(problem.meshes):
-        away = attempt.zones.sides[side].width * OUTSIDE
+        away = iterate.zones.sides[side].width * OUTSIDE
         x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap, pressure = gap_at(attempt, (kernels, geometry), side, x), state.pressure[side]
+        gap, pressure = gap_at(iterate, (kernels, geometry), side, x), state.pressure[side]
         parts.append(violation_outside(problem.nip, gap, pressure, width, state.approach))
     return largest(*parts)
 
 
 def gap_at(
-    attempt: PlateIterate,
+    iterate: PlateIterate,
     model: tuple[PairKernels, Geometry],
     side: int,
     x: Array,
 ) -> Array:
     """Return the gap between one roller and the sheet at given places, (m,) [mm]."""
-    problem, state, curved = attempt.problem, attempt.state, attempt.lagged.curved
+    problem, state, curved = iterate.problem, iterate.state, iterate.lagged.curved
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
     gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
     gap -= SIGNS[side] * problem.height_at(state, x, curved)
@@ -110,10 +110,10 @@ def _displacements_at(
     return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
-def carried(attempt: PlateIterate, problem: PlateProblem) -> PlateTerms:
+def carried(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:
     """Return the lagged terms of a solution, interpolated to other meshes."""
-    clearance, offsets, lagged = [], [], attempt.lagged
-    for side, (old, new) in enumerate(zip(attempt.problem.meshes, problem.meshes, strict=True)):
+    clearance, offsets, lagged = [], [], iterate.lagged
+    for side, (old, new) in enumerate(zip(iterate.problem.meshes, problem.meshes, strict=True)):
         clearance.append(np.interp(new.inner, old.inner, lagged.clearance[side]))
         middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
         rate = lagged.offsets[side] / old.dx

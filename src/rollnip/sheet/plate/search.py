@@ -82,10 +82,10 @@ class PlateSearch:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         zones = self._first.around(half_width, count).without_slivers()
-        attempt, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
-        moved = zones.moved(attempt.problem, attempt.state)
-        lagged = lagged_terms(attempt.problem, self.model.geometry, attempt.state)
-        return replace(attempt, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
+        iterate, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
+        moved = zones.moved(iterate.problem, iterate.state)
+        lagged = lagged_terms(iterate.problem, self.model.geometry, iterate.state)
+        return replace(iterate, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
     def _first(self) -> InitialZones:
@@ -105,18 +105,18 @@ class PlateSearch:
         """
         placed = closely * self.model.tolerance
         try:
-            attempt = self._moved_until(zones, count, before, placed)
+            iterate = self._moved_until(zones, count, before, placed)
         except np.linalg.LinAlgError:
             return replace(before, settled=False)
-        if attempt.settled:
-            return attempt
-        start = attempt.zones if attempt.zones.is_proper else zones
+        if iterate.settled:
+            return iterate
+        start = iterate.zones if iterate.zones.is_proper else zones
         try:
-            found = self._first.closer(start, attempt.lagged, count)
-            again = self._moved_until(found, count, attempt, placed)
+            found = self._first.closer(start, iterate.lagged, count)
+            again = self._moved_until(found, count, iterate, placed)
         except np.linalg.LinAlgError:
-            return attempt
-        return again if again.settled or again.misplacement < attempt.misplacement else attempt
+            return iterate
+        return again if again.settled or again.misplacement < iterate.misplacement else iterate
 
     def _moved_until(
         self, zones: PlateZones, count: int, before: PlateIterate, placed: float
@@ -130,31 +130,31 @@ class PlateSearch:
         shapes = _Shapes()
         changes = rough_ones = 0
         known = min(before.misplacement, 1.0)
-        attempt, misplacement = before, inf
+        iterate, misplacement = before, inf
         fair: PlateIterate | None = None
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().reopened(CLOSELY * self.model.tolerance)
             if not zones.is_proper:
                 break
-            attempt, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), attempt)
-            problem = attempt.problem
-            proposed = zones.moved(problem, attempt.state)
+            iterate, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), iterate)
+            problem = iterate.problem
+            proposed = zones.moved(problem, iterate.state)
             misplacement = proposed.distance(zones)
             known = min(known, misplacement)
-            violated = violation(attempt)
+            violated = violation(iterate)
             is_fair = violated <= self.model.tolerance
-            is_met = max(violated, shear_over(attempt)) <= self._slack
-            is_placed = misplacement <= placed and attempt.settled and is_fine
-            is_placed = is_placed and not pulls_at_edges(attempt)
-            is_placed = is_placed and added_to_peaks(attempt, proposed) <= self.model.tolerance
+            is_met = max(violated, shear_over(iterate)) <= self._slack
+            is_placed = misplacement <= placed and iterate.settled and is_fine
+            is_placed = is_placed and not pulls_at_edges(iterate)
+            is_placed = is_placed and added_to_peaks(iterate, proposed) <= self.model.tolerance
             if is_met and is_placed:
-                return replace(attempt, zones=proposed, misplacement=misplacement)
+                return replace(iterate, zones=proposed, misplacement=misplacement)
             if is_fair and is_placed and fair is None:
-                fair = replace(attempt, zones=proposed, misplacement=misplacement)
+                fair = replace(iterate, zones=proposed, misplacement=misplacement)
             rough = misplacement > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met or (is_fair and not is_placed)):
-                found = self._found(attempt, proposed)
+                found = self._found(iterate, proposed)
                 if found is None:
                     break
                 if not found.is_like(zones):
@@ -164,11 +164,11 @@ class PlateSearch:
                     zones = found
                     shapes.clear()
                     continue
-                proposed = zones.moved(problem, attempt.state, found)
+                proposed = zones.moved(problem, iterate.state, found)
                 if is_placed and proposed.distance(zones) <= placed:
                     break
             zones = proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
-        return _unplaced(zones, attempt, misplacement) if fair is None else fair
+        return _unplaced(zones, iterate, misplacement) if fair is None else fair
 
     def _on_mesh(
         self,
@@ -292,19 +292,19 @@ class PlateSearch:
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _found(self, attempt: PlateIterate, edges: PlateZones) -> PlateZones | None:
+    def _found(self, iterate: PlateIterate, edges: PlateZones) -> PlateZones | None:
         """Return zones with consistent states between known edges; None where there are none."""
-        if max(mesh.inner.size for mesh in attempt.problem.meshes) > _MOST_NODES:
+        if max(mesh.inner.size for mesh in iterate.problem.meshes) > _MOST_NODES:
             return None
         try:
-            state, _ = solve_node_by_node(attempt.problem, attempt.lagged, attempt.zones.edges)
+            state, _ = solve_node_by_node(iterate.problem, iterate.lagged, iterate.zones.edges)
         except np.linalg.LinAlgError:
             return None
-        found = edges.found(attempt.problem, state)
+        found = edges.found(iterate.problem, state)
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, attempt: PlateIterate, misplacement: float) -> PlateIterate:
+def _unplaced(zones: PlateZones, iterate: PlateIterate, misplacement: float) -> PlateIterate:
     """Return the last solution, marked as not converged."""
-    proper = zones if zones.is_proper else attempt.zones
-    return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
+    proper = zones if zones.is_proper else iterate.zones
+    return replace(iterate, zones=proper, settled=False, misplacement=misplacement)

@@ -75,20 +75,20 @@ class PlateSolution(SheetSolution):
         return out
 
     def _traction_slope(self) -> float:
-        attempt, tractions = self._standing, []
+        iterate, tractions = self._standing, []
         for creepage in (0.0, 1.0):  # the tractions are linear in it
             nip = replace(self.nip, tangential=Creepage(creepage))
-            system = FactorisedPlate.of(replace(attempt.problem, nip=nip), attempt.state.states)
-            shear = system.solved(attempt.lagged).shear[1]
-            tractions.append(float(attempt.problem.meshes[1].weights @ shear))
+            system = FactorisedPlate.of(replace(iterate.problem, nip=nip), iterate.state.states)
+            shear = system.solved(iterate.lagged).shear[1]
+            tractions.append(float(iterate.problem.meshes[1].weights @ shear))
         return abs(tractions[1] - tractions[0])
 
     @cached_property
     def _path(self) -> tuple[float, float]:
         """Return the largest squared slope and curvature of the path in the contacts."""
-        attempt, slope, curvature = self._standing, 0.0, 0.0
-        rotations = attempt.problem.rotations(attempt.state, attempt.lagged.curved)
-        for mesh, rotation in zip(attempt.problem.meshes, rotations, strict=True):
+        iterate, slope, curvature = self._standing, 0.0, 0.0
+        rotations = iterate.problem.rotations(iterate.state, iterate.lagged.curved)
+        for mesh, rotation in zip(iterate.problem.meshes, rotations, strict=True):
             x, turned = mesh.inner, rotation[:-1]
             slope = max(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
@@ -97,13 +97,13 @@ class PlateSolution(SheetSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        attempt = self._standing
+        iterate = self._standing
         lower = self._lower_round
         return SheetProfiles(
             x,
             self._on_lower(x, lower.shear),
             self._tension(x),
-            attempt.problem.strain_at(attempt.state, x),
+            iterate.problem.strain_at(iterate.state, x),
             self._slip(1),
             self._on_lower(x, lower.pressure),
             self._height,
@@ -115,7 +115,7 @@ class PlateSolution(SheetSolution):
 
     @property
     def _standing(self) -> PlateIterate:
-        return self._plate_refined.attempt
+        return self._plate_refined.iterate
 
     @property
     def _plate_refined(self) -> Refined[PlateIterate]:
@@ -143,41 +143,41 @@ class PlateSolution(SheetSolution):
         return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
-        attempt = self._standing
-        return attempt.problem.tension_at(attempt.state, x)
+        iterate = self._standing
+        return iterate.problem.tension_at(iterate.state, x)
 
     @cached_property
     def _height(self) -> Array:
         """Height of the sheet's path at ``_points``, without its thickness [mm]."""
-        attempt = self._standing
-        return attempt.problem.height_at(attempt.state, self._points[0], attempt.lagged.curved)
+        iterate = self._standing
+        return iterate.problem.height_at(iterate.state, self._points[0], iterate.lagged.curved)
 
     @cached_property
     def _thinned_faces(self) -> Array:
-        attempt = self._standing
-        return attempt.problem.thinned_at(attempt.state, self._points[0])
+        iterate = self._standing
+        return iterate.problem.thinned_at(iterate.state, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        attempt, four = self._standing, []
+        iterate, four = self._standing, []
         x = np.unique(np.concatenate([fine_points(self.final), fine_points(self._lower_round)]))
         for side in (0, 1):
-            one, mesh = self._of_side(side), attempt.problem.meshes[side]
+            one, mesh = self._of_side(side), iterate.problem.meshes[side]
             acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
             made = pair_displacements(self.kernels, x, one.nodes, acting)
             xx, zz, xz = made[3 * side : 3 * side + 3]
             rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
             if not mesh.kernels.is_linear:
-                rows += mesh.second(attempt.state.side(side), x).four[2 * side : 2 * side + 2]
+                rows += mesh.second(iterate.state.side(side), x).four[2 * side : 2 * side + 2]
             four.append(rows)
         return x, Displacements(np.concatenate(four))
 
     def _sliding(self) -> tuple[Array, Array]:
-        attempt, state = self._standing, self._standing.state
-        (mu_u, mu_l), (above, below) = attempt.problem.frictions, state.pressure
+        iterate, state = self._standing, self._standing.state
+        (mu_u, mu_l), (above, below) = iterate.problem.frictions, state.pressure
         slid = replace(state, shear=(mu_u * above, -mu_l * below), creepages=(0.0, 0.0))
-        (_, upper), (_, lower) = attempt.problem.gaps_and_creeps(slid, attempt.lagged)
-        first, second = (mesh.dx[:-1] for mesh in attempt.problem.meshes)
+        (_, upper), (_, lower) = iterate.problem.gaps_and_creeps(slid, iterate.lagged)
+        first, second = (mesh.dx[:-1] for mesh in iterate.problem.meshes)
         return upper[:-1] / first, lower[:-1] / second
 
     def _slip(self, side: int) -> Array | None:
@@ -185,18 +185,18 @@ class PlateSolution(SheetSolution):
         if speed is None:
             return None
         x, u = self._points
-        attempt = self._standing
-        dx, problem, state = np.diff(x), attempt.problem, attempt.state
+        iterate = self._standing
+        dx, problem, state = np.diff(x), iterate.problem, iterate.state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)
         face = 0.5 * (strain[1:] + strain[:-1])
-        curved, half = attempt.lagged.curved, 0.5 * problem.sheet.thickness
+        curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
         turned = direction_of(problem.rotation_at(state, x, curved), curved)
         face -= SIGNS[side] * half * np.diff(turned) / dx
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
-        for zone in attempt.zones.sides[side].zones:
+        for zone in iterate.zones.sides[side].zones:
             within = inside_zone(x, zone)
             out[within] = 0.0
             if zone.state != State.STICK:
@@ -206,8 +206,8 @@ class PlateSolution(SheetSolution):
 
 def plate_round(refined: Refined[PlateIterate]) -> Round:
     """Return a solution as the `Round` of a bare nip, with the tractions of the upper interface."""
-    attempt = refined.attempt
-    state, problem = attempt.state, attempt.problem
+    iterate = refined.iterate
+    state, problem = iterate.state, iterate.problem
     upper, lower = problem.meshes
     shear_lower = values_at(lower, upper.inner) @ state.shear[1]
     one = state.side(0)
@@ -217,7 +217,7 @@ def plate_round(refined: Refined[PlateIterate]) -> Round:
         shear=one.shear,
         approach=one.approach,
         creepage=state.creepages[0],
-        steps=attempt.steps,
+        steps=iterate.steps,
         settled=True,
         states_lower=state.states[1],
         shear_lower=shear_lower,
@@ -226,20 +226,20 @@ def plate_round(refined: Refined[PlateIterate]) -> Round:
     n = upper.inner.size
     return Round(
         mesh=upper,
-        problem=_as_problem(attempt, 0),
+        problem=_as_problem(iterate, 0),
         state=both,
         second=SecondOrder(
-            attempt.lagged.clearance[0],
+            iterate.lagged.clearance[0],
             np.zeros(n),
-            attempt.lagged.offsets[0],
-            attempt.lagged.traction,
+            iterate.lagged.offsets[0],
+            iterate.lagged.traction,
         ),
-        zones=attempt.zones.upper.zones,
+        zones=iterate.zones.upper.zones,
         figures=refined.figures.watched,
         error=refined.errors.watched,
-        steps=attempt.steps,
-        settled=attempt.settled,
-        geometry_change=attempt.change,
+        steps=iterate.steps,
+        settled=iterate.settled,
+        geometry_change=iterate.change,
         residual=refined.residual,
         cut=refined.cut,
     )
@@ -247,33 +247,33 @@ def plate_round(refined: Refined[PlateIterate]) -> Round:
 
 def lower_round(refined: Refined[PlateIterate], upper: Round) -> Round:
     """Return the `Round` of the lower interface, from that of the upper one."""
-    attempt = refined.attempt
-    mesh, lagged = attempt.problem.meshes[1], attempt.lagged
+    iterate = refined.iterate
+    mesh, lagged = iterate.problem.meshes[1], iterate.lagged
     return replace(
         upper,
         mesh=mesh,
-        problem=_as_problem(attempt, 1),
-        state=attempt.state.side(1, creepage=attempt.state.creepage),
+        problem=_as_problem(iterate, 1),
+        state=iterate.state.side(1, creepage=iterate.state.creepage),
         second=SecondOrder(
             lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
         ),
-        zones=attempt.zones.lower.zones,
+        zones=iterate.zones.lower.zones,
         figures=refined.lower.watched,
         error=refined.lower_errors.watched,
     )
 
 
-def _as_problem(attempt: PlateIterate, side: int) -> ContactProblem:
+def _as_problem(iterate: PlateIterate, side: int) -> ContactProblem:
     """Return the contact problem that a bare nip would have on the mesh of one interface."""
-    problem, mesh = attempt.problem, attempt.problem.meshes[side]
+    problem, mesh = iterate.problem, iterate.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
     control = Control(
-        load=None, approach=attempt.state.approach, traction=None, creepage=attempt.state.creepage
+        load=None, approach=iterate.state.approach, traction=None, creepage=iterate.state.creepage
     )
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * curvature * mesh.inner**2 + attempt.lagged.clearance[side],
+        clearance=0.5 * curvature * mesh.inner**2 + iterate.lagged.clearance[side],
         influence=mesh.influence,
         creep_length=mesh.dx,
         creep_offset=np.zeros(mesh.inner.size),

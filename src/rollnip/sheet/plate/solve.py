@@ -71,7 +71,7 @@ def solve_plate(
                 "tensions, or `bending = false`."
             )
         return None
-    if not asked and not refined.attempt.settled:
+    if not asked and not refined.iterate.settled:
         return None
     require_grip(nip, refined)
     found = _solution(nip, model, kernels, refined, (said, perf_counter() - start, version))
@@ -85,7 +85,7 @@ def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
 
 
 def _rests(refined: Refined[PlateIterate] | None) -> bool:
-    return refined is not None and refined.attempt.settled
+    return refined is not None and refined.iterate.settled
 
 
 def _refined(
@@ -99,7 +99,7 @@ def _refined(
     tried: list[tuple[Model, PairKernels, Refined[PlateIterate] | None]] = []
     now: Model | None = model
     while now is not None:
-        tried.append((now, *_attempt(nip, now, cache)))
+        tried.append((now, *_solve_in_geometry(nip, now, cache)))
         if _rests(tried[-1][2]):
             break
         simpler = SIMPLER.get(now.geometry)
@@ -110,7 +110,7 @@ def _refined(
     return model, kernels, refined, solved_instead(left, model.geometry)
 
 
-def _attempt(
+def _solve_in_geometry(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[PairKernels, Refined[PlateIterate] | None]:
     """Return influence functions and the solution in one geometry; None where none exists."""
@@ -137,7 +137,7 @@ def _solution(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
-    final, attempt = plate_round(refined), refined.attempt
+    final, iterate = plate_round(refined), refined.iterate
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
@@ -151,10 +151,10 @@ def _solution(
         status=status,
         reservations=consistent(said),
         solver=SolverInfo(
-            elements=int(max(mesh.nodes.size for mesh in attempt.problem.meshes) - 1),
-            iterations=attempt.steps,
+            elements=int(max(mesh.nodes.size for mesh in iterate.problem.meshes) - 1),
+            iterations=iterate.steps,
             residual=refined.residual,
-            geometry_change=attempt.change,
+            geometry_change=iterate.change,
             seconds=seconds,
             version=version,
         ),
@@ -170,14 +170,14 @@ def _verdict(
     nip: Nip, model: Model, refined: Refined[PlateIterate], rounds: tuple[Round, Round]
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
-    attempt = refined.attempt
-    if not attempt.settled and refined.residual <= _HARDLY:
+    iterate = refined.iterate
+    if not iterate.settled and refined.residual <= _HARDLY:
         return False, (
             "Edges, or ends of stick and slip, on the sides of the sheet did not settle "
-            f"(they still moved by {100.0 * attempt.misplacement:.1g} % of the width); try another "
+            f"(they still moved by {100.0 * iterate.misplacement:.1g} % of the width); try another "
             "tolerance, another load or other tensions, or `bending = false`."
         )
-    if attempt.settled and not np.isfinite(refined.errors.values).all():
+    if iterate.settled and not np.isfinite(refined.errors.values).all():
         return False, (
             "Contact, stick and slip settled on one size of mesh only, so no error can be "
             "estimated; try another tolerance, another load or other tensions, or "

@@ -96,9 +96,9 @@ class PlateZones(SideZones):
 
         Parameters
         ----------
-        problem, state : a solution with nodes at the zone ends. called : like zones, with states
-        that meet all conditions on these meshes. They place a transition
-            where the nearest shears do not, because all of them exceed their bounds.
+        problem, state : a solution with nodes at the zone ends.
+        called : like zones, with states that meet all conditions on these meshes. They place a
+            transition where the nearest shears do not, because all of them exceed their bounds.
         """
         sides = []
         for number, side in enumerate(self.sides):

@@ -10,7 +10,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
-from rollnip.sheet.formulation import CLOSELY
+from rollnip.sheet.formulation import END_TOLERANCE
 from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneSearch
@@ -37,8 +37,8 @@ def _errors(number, geometry=None):
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = MembraneSearch(case.nip, model, solution.kernels)
-    fine = search.placed(
-        refined.iterate.zones, round(2.2 * solution.solver.elements), refined.iterate, CLOSELY
+    fine = search.settle_zones(
+        refined.iterate.zones, round(2.2 * solution.solver.elements), refined.iterate, END_TOLERANCE
     )
     if not fine.settled:
         return None
@@ -210,7 +210,7 @@ def _errors_below(number):
     iterate, model = solution.refined.iterate, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
     search = PlateSearch(case.nip, model, solution.kernels)
-    fine = search.placed(iterate.zones, count, iterate, CLOSELY)
+    fine = search.settle_zones(iterate.zones, count, iterate, END_TOLERANCE)
     if not fine.settled:
         return None
     mesh, sheet = fine.problem.meshes[1], solution.sheet

@@ -57,13 +57,13 @@ def test_two_sizes_of_mesh_suffice_for_half_of_the_nips_without_memory():
 
 
 def test_what_never_settles_is_given_up_after_three_sizes_of_mesh(monkeypatch):
-    sizes, placed = [], search.MembraneSearch.placed
+    sizes, placed = [], search.MembraneSearch.settle_zones
 
     def restless(self, zones, count, *more):
         sizes.append(count)
         return replace(placed(self, zones, count, *more), settled=False)
 
-    monkeypatch.setattr(search.MembraneSearch, "placed", restless)
+    monkeypatch.setattr(search.MembraneSearch, "settle_zones", restless)
     assert not rn.solve(random_case(17).nip, rn.Model(geometry="curved")).converged
     assert len(sizes) == 3
 

@@ -246,7 +246,7 @@ def test_the_verdict_asks_for_the_creepage_on_either_side(pulled, place, side):
     refined = pulled.refined
     values = refined.errors.values.copy()
     values[place] = 3.0 * pulled.model.tolerance * scales(pulled.nip, refined.figures)[place]
-    worse = replace(refined, errors_on_sides=(SheetFigures(values),))
+    worse = replace(refined, errors_by_side=(SheetFigures(values),))
     assert sheet_verdict(pulled.nip, pulled.model, refined, pulled.final)[0]
     is_met, status = sheet_verdict(pulled.nip, pulled.model, worse, pulled.final)
     assert not is_met

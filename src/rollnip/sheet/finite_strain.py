@@ -32,18 +32,18 @@ from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
-from rollnip.sheet.formulation import CLOSELY, ROUGHLY, Formulation, S
+from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_works
-from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
+from rollnip.sheet.refine import Refined, initial_elements, on_last_mesh, refine
 
 _MOST_RESTARTS = 10  # iterations that are solved from the beginning
 _COARSE = 20  # number of elements while the corrections still change
 
 
 def solve_by_iteration(
-    kind: Formulation[S], model: Model, kernels: PairKernels, half_width: float
-) -> tuple[PairKernels, Refined[S]] | None:
+    formulation: Formulation[IterateT], model: Model, kernels: PairKernels, half_width: float
+) -> tuple[PairKernels, Refined[IterateT]] | None:
     """Solve the contact with a sheet together with the corrections of both rollers, by iteration.
 
     The iteration starts on a coarse mesh, from the linear displacements, until the remaining
@@ -58,16 +58,16 @@ def solve_by_iteration(
     The influence functions with the last corrections and the solution with them; None where there
     is no equilibrium, or zones or corrections do not converge.
     """
-    if skin_thickness(kind.nip) > 0.0:
+    if skin_thickness(formulation.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     try:
-        iterate = _begun(kind, coarsely(model), kernels, half_width)
+        iterate = _begun(formulation, coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
     for share in SHARES_KEPT:
-        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(iterate), share)
+        orders = AllOrders.of(formulation.nip, kernels, half_width, _largest_strain(iterate), share)
         try:
-            found = _iterate_until_settled(kernels, _Contact(kind, model, iterate), orders)
+            found = _iterate_until_settled(kernels, _Contact(formulation, model, iterate), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -75,31 +75,33 @@ def solve_by_iteration(
     return None
 
 
-def _begun(kind: Formulation[S], model: Model, kernels: PairKernels, half_width: float) -> S:
+def _begun(
+    formulation: Formulation[IterateT], model: Model, kernels: PairKernels, half_width: float
+) -> IterateT:
     """Return a first solution on a coarse mesh, without a previous one."""
-    search = kind.search(model, kernels)
-    count = round(elements_to_begin_with(kind, half_width, _COARSE))
-    iterate = search.begun(half_width, count)
-    return search.placed(iterate.zones, count, iterate, ROUGHLY)
+    search = formulation.search(model, kernels)
+    count = round(initial_elements(formulation, half_width, _COARSE))
+    iterate = search.start(half_width, count)
+    return search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
 
 
 @dataclass
-class _Contact(Generic[S]):
+class _Contact(Generic[IterateT]):
     """A contact that is solved repeatedly.
 
     Attributes
     ----------
-    kind, model : formulation of the sheet, and the model with the tolerance of the refined
+    formulation, model : formulation of the sheet, and the model with the tolerance of the refined
         solution.
     iterate : the last solution.
     refined : the refined solution; None while the mesh is coarse.
     restarts : how often the search was restarted.
     """
 
-    kind: Formulation[S]
+    formulation: Formulation[IterateT]
     model: Model
-    iterate: S
-    refined: Refined[S] | None = None
+    iterate: IterateT
+    refined: Refined[IterateT] | None = None
     restarts: int = 0
 
     def solve(self, kernels: PairKernels, *, refine: bool) -> None:
@@ -108,49 +110,49 @@ class _Contact(Generic[S]):
         Where its zones do not converge, the search is restarted. ``refine``: on finer and finer
         meshes.
         """
-        found = self.kind.holding(self.iterate, kernels)
+        found = self.formulation.with_corrections(self.iterate, kernels)
         if refine:
             self._refine(kernels, found)
             return
         model = coarsely(self.model) if self.refined is None else self.model
         size = _COARSE if self.refined is None else self.refined.count
         half_width = 0.5 * found.zones.width
-        count = round(elements_to_begin_with(self.kind, half_width, size))
-        search = self.kind.search(model, kernels)
-        found = search.placed(found.zones, count, found, CLOSELY)
+        count = round(initial_elements(self.formulation, half_width, size))
+        search = self.formulation.search(model, kernels)
+        found = search.settle_zones(found.zones, count, found, END_TOLERANCE)
         if not found.settled and self.restarts < _MOST_RESTARTS:
             start, stop = _edges(self.iterate)
-            found = _begun(self.kind, model, kernels, 0.5 * (stop - start))
+            found = _begun(self.formulation, model, kernels, 0.5 * (stop - start))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
                 return
         self.iterate = found
 
-    def _refine(self, kernels: PairKernels, before: S) -> None:
+    def _refine(self, kernels: PairKernels, before: IterateT) -> None:
         half_width = 0.5 * before.zones.width
-        self.refined = refine(self.kind, self.model, kernels, half_width, before)
+        self.refined = refine(self.formulation, self.model, kernels, half_width, before)
         self.iterate = self.refined.iterate
 
 
 def _iterate_until_settled(
-    kernels: PairKernels, contact: _Contact[S], orders: AllOrders
-) -> tuple[PairKernels, Refined[S]] | None:
+    kernels: PairKernels, contact: _Contact[IterateT], orders: AllOrders
+) -> tuple[PairKernels, Refined[IterateT]] | None:
     """Iterate corrections and contact; see `solve_by_iteration`."""
-    kind, tolerance, change = contact.kind, contact.model.tolerance, inf
+    formulation, tolerance, change = contact.formulation, contact.model.tolerance, inf
     past = Past(even_places(_edges(contact.iterate)))
-    least = Least[tuple[PairKernels, Refined[S], S]]()
+    least = Least[tuple[PairKernels, Refined[IterateT], IterateT]]()
     for _ in range(MOST_CORRECTIONS):
         iterate, refined = contact.iterate, contact.refined
         creepage = sum(iterate.state.creepages)
         made, is_whole = orders.under(_sides(iterate), creepage, roughly=change == inf)
         smooth = replace(kernels, held=made)
-        own = kind.holding(iterate, smooth)
+        own = formulation.with_corrections(iterate, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
         if refined is not None and change < SMALL and is_whole:
-            missed = kind.missed(iterate, own)
-            found = on_last_mesh(kind, refined, own, smooth, missed)
+            missed = formulation.residual_with_terms_of(iterate, own)
+            found = on_last_mesh(formulation, refined, own, smooth, missed)
             if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
                 break
         kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
@@ -165,11 +167,11 @@ def _iterate_until_settled(
         return None
     kernels, found, own = least.found
     assert kernels.held is not None
-    uncut = kind.holding(own, replace(kernels, held=kernels.held.uncut))
-    return kernels, _with_cut(found, kind.missed(own, uncut))
+    uncut = formulation.with_corrections(own, replace(kernels, held=kernels.held.uncut))
+    return kernels, _with_cut(found, formulation.residual_with_terms_of(own, uncut))
 
 
-def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
+def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:
     """Return a refined solution with the residual ``cut`` due to what the correction leaves out."""
     figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.iterate)
     losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)

@@ -11,22 +11,24 @@ from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import Pulls
 
-S = TypeVar("S", bound=AnyIterate)
+IterateT = TypeVar("IterateT", bound=AnyIterate)
 
 FIRST_SIZE = 24
 """Least number of elements of the first mesh size."""
-ROUGHLY, CLOSELY = 0.5, 0.03
+FIRST_END_TOLERANCE, END_TOLERANCE = 0.5, 0.03
 """Allowed error of a zone end over tolerance times width, on the first mesh size and on others."""
 
 
-class ZoneSearch(Protocol[S]):
+class ZoneSearch(Protocol[IterateT]):
     """A search for the zones of stick and slip in a nip with a sheet, for one model."""
 
-    def begun(self, half_width: float, count: int) -> S:
+    def start(self, half_width: float, count: int) -> IterateT:
         """Return a first solution, in linear geometry, whose zones are approximately right."""
         ...
 
-    def placed(self, zones: Any, count: int, before: S, closely: float) -> S:
+    def settle_zones(
+        self, zones: Any, count: int, before: IterateT, end_tolerance: float
+    ) -> IterateT:
         """Return the converged solution on meshes of one size with nodes at its zone ends.
 
         Parameters
@@ -34,12 +36,12 @@ class ZoneSearch(Protocol[S]):
         zones : to start from.
         count : approximate number of elements.
         before : a solution with approximately these zones.
-        closely : allowed error of a zone end, over the tolerance times the width.
+        end_tolerance : allowed error of a zone end, over the tolerance times the width.
         """
         ...
 
 
-class Formulation(Protocol[S]):
+class Formulation(Protocol[IterateT]):
     """A nip with a sheet in one formulation, as a membrane or as a plate."""
 
     @property
@@ -47,7 +49,7 @@ class Formulation(Protocol[S]):
         """The nip."""
         ...
 
-    def search(self, model: Model, kernels: PairKernels) -> ZoneSearch[S]:
+    def search(self, model: Model, kernels: PairKernels) -> ZoneSearch[IterateT]:
         """Return the search for its zones."""
         ...
 
@@ -56,29 +58,29 @@ class Formulation(Protocol[S]):
         """Length over which bending stiffness acts [mm]; inf for a membrane."""
         ...
 
-    def peaks_allowed(self, model: Model) -> tuple[float, ...]:
+    def peak_tolerances(self, model: Model) -> tuple[float, ...]:
         """Return the allowed relative error of the peak pressure on each side."""
         ...
 
-    def figures(self, iterate: S, geometry: Geometry) -> tuple[SheetFigures, ...]:
+    def figures(self, iterate: IterateT, geometry: Geometry) -> tuple[SheetFigures, ...]:
         """Return the figures, with width and pressure of the upper interface.
 
         Where the lower interface has a width and a pressure of its own, figures with those follow.
         """
         ...
 
-    def pulls(self, iterate: S, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: IterateT, geometry: Geometry) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         ...
 
-    def overlap(self, iterate: S, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: IterateT, kernels: PairKernels, geometry: Geometry) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
         ...
 
-    def holding(self, iterate: S, kernels: PairKernels) -> S:
+    def with_corrections(self, iterate: IterateT, kernels: PairKernels) -> IterateT:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         ...
 
-    def missed(self, iterate: S, other: S) -> float:
+    def residual_with_terms_of(self, iterate: IterateT, other: IterateT) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         ...

@@ -13,7 +13,14 @@ from rollnip.rolling import PairKernels
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
-from rollnip.sheet.formulation import CLOSELY, FIRST_SIZE, ROUGHLY, Formulation, S, ZoneSearch
+from rollnip.sheet.formulation import (
+    END_TOLERANCE,
+    FIRST_END_TOLERANCE,
+    FIRST_SIZE,
+    Formulation,
+    IterateT,
+    ZoneSearch,
+)
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import off_the_moments, slip_works
 
@@ -21,7 +28,7 @@ _GROWTH = 1.6  # largest growth of the number of elements from size to size
 _LEAST_GROWTH = 1.25
 _MORE = 1.4  # safety factor on the number of elements that would meet the tolerance
 _MOST_ELEMENTS = 340
-_CLOSELY_TO = 60  # elements beyond which zone ends are placed more accurately
+_TIGHTER_FROM = 60  # elements beyond which zone ends are placed more accurately
 _PER_LENGTH = 1.6  # elements of the first size per bending length in the width
 _MOST_FOR_LENGTH = 60.0  # upper limit of the first size for this reason
 _MOST_FAILURES = 3  # mesh sizes in a row whose zones do not converge
@@ -36,8 +43,9 @@ class Refined(Generic[T]):
     Attributes
     ----------
     iterate : the solution on the finest meshes.
-    on_sides, errors_on_sides : figures and errors with width, peak pressure and its place of the
-        upper interface; for a plate, those of the lower interface follow. Unknown errors are inf.
+    figures_by_side, errors_by_side : figures and errors with width, peak pressure and its place of
+        the upper interface; for a plate, those of the lower interface follow. Unknown errors are
+        inf.
     residual : of the contact conditions.
     count : approximate number of elements.
     cut : residual due to what the correction of "finite" leaves out.
@@ -45,8 +53,8 @@ class Refined(Generic[T]):
     """
 
     iterate: T
-    on_sides: tuple[SheetFigures, ...]
-    errors_on_sides: tuple[SheetFigures, ...]
+    figures_by_side: tuple[SheetFigures, ...]
+    errors_by_side: tuple[SheetFigures, ...]
     residual: float
     count: int
     cut: float = 0.0
@@ -55,36 +63,36 @@ class Refined(Generic[T]):
     @property
     def figures(self) -> SheetFigures:
         """Return the figures with width and pressure of the upper interface."""
-        return self.on_sides[0]
+        return self.figures_by_side[0]
 
     @property
     def errors(self) -> SheetFigures:
         """Return their errors."""
-        return self.errors_on_sides[0]
+        return self.errors_by_side[0]
 
     @property
     def lower(self) -> SheetFigures:
         """Return the figures with width and pressure of the lower interface."""
-        return self.on_sides[-1]
+        return self.figures_by_side[-1]
 
     @property
     def lower_errors(self) -> SheetFigures:
         """Return their errors."""
-        return self.errors_on_sides[-1]
+        return self.errors_by_side[-1]
 
 
 def refine(
-    kind: Formulation[S],
+    formulation: Formulation[IterateT],
     model: Model,
     kernels: PairKernels,
     half_width: float,
-    before: S | None = None,
-) -> Refined[S]:
+    before: IterateT | None = None,
+) -> Refined[IterateT]:
     """Solve on finer and finer meshes until the estimated errors are within the tolerance.
 
     Parameters
     ----------
-    kind, model, kernels : the problem, how it is solved, and its influence functions.
+    formulation, model, kernels : the problem, how it is solved, and its influence functions.
     half_width : approximate half-width of the contact [mm].
     before : a solution to start from; None: start in linear geometry.
 
@@ -93,31 +101,31 @@ def refine(
     numpy.linalg.LinAlgError
         where no mesh size has a solution.
     """
-    search, count = kind.search(model, kernels), elements_to_begin_with(kind, half_width)
-    iterate = search.begun(half_width, round(count)) if before is None else before
+    search, count = formulation.search(model, kernels), initial_elements(formulation, half_width)
+    iterate = search.start(half_width, round(count)) if before is None else before
     history: list[SizeOfMesh] = []
-    best: Refined[S] | None = None
+    best: Refined[IterateT] | None = None
     failures = last_count = 0
     while count <= _MOST_ELEMENTS and failures < _MOST_FAILURES:
         try:
-            closely = _closely(count) if history else ROUGHLY
-            iterate = search.placed(iterate.zones, round(count), iterate, closely)
+            end_tolerance = _end_tolerance(count) if history else FIRST_END_TOLERANCE
+            iterate = search.settle_zones(iterate.zones, round(count), iterate, end_tolerance)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        here = _size_of(kind, model.geometry, iterate, count)
-        errors = estimated_errors(kind.nip, iterate.problem.meshes, [*history, here])
-        excess = _excess(kind, model, here, errors)
+        here = _size_of(formulation, model.geometry, iterate, count)
+        errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
+        excess = _excess(formulation, model, here, errors)
         if iterate.settled and history and excess > 1.0:
-            history = _with_zones_of(kind, model, search, iterate, history, last_count)
-            errors = estimated_errors(kind.nip, iterate.problem.meshes, [*history, here])
-            excess = _excess(kind, model, here, errors)
+            history = _with_zones_of(formulation, model, search, iterate, history, last_count)
+            errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
+            excess = _excess(formulation, model, here, errors)
         latest = Refined(iterate, here.figures, errors, violation(iterate), round(count))
         if iterate.settled:
             history.append(here)
             best, failures, last_count = latest, 0, round(count)
             if excess <= 1.0 and latest.residual <= model.tolerance:
-                best = _with_overlap(kind, latest, kernels, model.geometry)
+                best = _with_overlap(formulation, latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
                     return best
         else:
@@ -125,41 +133,46 @@ def refine(
         count = _next_count(count, excess)
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return _with_overlap(kind, best, kernels, model.geometry)
+    return _with_overlap(formulation, best, kernels, model.geometry)
 
 
-def elements_to_begin_with(
-    kind: Formulation[S], half_width: float, least: float = FIRST_SIZE
+def initial_elements(
+    formulation: Formulation[IterateT], half_width: float, least: float = FIRST_SIZE
 ) -> float:
     """Return a number of elements that resolves the bending length, at least ``least``."""
-    lengths = 2.0 * half_width / kind.bending_length
+    lengths = 2.0 * half_width / formulation.bending_length
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
-def _size_of(kind: Formulation[S], geometry: Geometry, iterate: S, count: float) -> SizeOfMesh:
+def _size_of(
+    formulation: Formulation[IterateT], geometry: Geometry, iterate: IterateT, count: float
+) -> SizeOfMesh:
     """Return a solution in the form that the error estimates take."""
-    return SizeOfMesh(count, kind.figures(iterate, geometry), iterate.zones)
+    return SizeOfMesh(count, formulation.figures(iterate, geometry), iterate.zones)
 
 
 def _excess(
-    kind: Formulation[S], model: Model, here: SizeOfMesh, errors: tuple[SheetFigures, ...]
+    formulation: Formulation[IterateT],
+    model: Model,
+    here: SizeOfMesh,
+    errors: tuple[SheetFigures, ...],
 ) -> float:
     """Return the largest error over its allowed value, of the figures with a tolerance."""
     most = 0.0
     for figures, error, allowed in zip(
-        here.figures, errors, kind.peaks_allowed(model), strict=True
+        here.figures, errors, formulation.peak_tolerances(model), strict=True
     ):
         values = error.values.copy()
         values[_PEAK] *= model.tolerance / allowed
-        most = max(most, ratio(kind.nip, figures, SheetFigures(values)))
+        most = max(most, ratio(formulation.nip, figures, SheetFigures(values)))
     return most / model.tolerance
 
 
 def _with_zones_of(
-    kind: Formulation[S],
+    formulation: Formulation[IterateT],
     model: Model,
-    search: ZoneSearch[S],
-    iterate: S,
+    search: ZoneSearch[IterateT],
+    iterate: IterateT,
     history: list[SizeOfMesh],
     count: int,
 ) -> list[SizeOfMesh]:
@@ -172,20 +185,20 @@ def _with_zones_of(
     if not history or history[-1].zones.is_like(iterate.zones):
         return history
     try:
-        again = search.placed(iterate.zones, count, iterate, ROUGHLY)
+        again = search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
     except np.linalg.LinAlgError:
         return history
     if not (again.settled and again.zones.is_like(iterate.zones)):
         return history
-    return [_size_of(kind, model.geometry, again, count)]
+    return [_size_of(formulation, model.geometry, again, count)]
 
 
-def _closely(count: float) -> float:
+def _end_tolerance(count: float) -> float:
     """Return the allowed error of zone ends over the tolerance, tighter on finer meshes.
 
     Otherwise the changes between sizes would be those of misplaced ends.
     """
-    return CLOSELY * min(1.0, (_CLOSELY_TO / count) ** 2)
+    return END_TOLERANCE * min(1.0, (_TIGHTER_FROM / count) ** 2)
 
 
 def _next_count(count: float, excess: float) -> float:
@@ -198,38 +211,45 @@ def _next_count(count: float, excess: float) -> float:
 
 
 def _with_overlap(
-    kind: Formulation[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
-) -> Refined[S]:
+    formulation: Formulation[IterateT],
+    refined: Refined[IterateT],
+    kernels: PairKernels,
+    geometry: Geometry,
+) -> Refined[IterateT]:
     """Return a solution whose residual and errors include the check outside the contact."""
-    left = max(refined.residual, kind.overlap(refined.iterate, kernels, geometry))
-    return with_errors_of_powers(kind, replace(refined, residual=left), geometry)
+    left = max(refined.residual, formulation.overlap(refined.iterate, kernels, geometry))
+    return with_errors_of_powers(formulation, replace(refined, residual=left), geometry)
 
 
 def with_errors_of_powers(
-    kind: Formulation[S], refined: Refined[S], geometry: Geometry
-) -> Refined[S]:
+    formulation: Formulation[IterateT], refined: Refined[IterateT], geometry: Geometry
+) -> Refined[IterateT]:
     """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
     Slip along its own shear cannot be counted as a loss. Only at finite strain are the moments of
     the tractions as exact as the torques.
     """
     iterate = refined.iterate
-    works = slip_works(iterate, geometry, kind.pulls(iterate, geometry))
+    works = slip_works(iterate, geometry, formulation.pulls(iterate, geometry))
     left = np.zeros(2)
     if geometry == "finite":
         left = off_the_moments(iterate, refined.figures.powers)
-    errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_on_sides)
-    return replace(refined, errors_on_sides=errors)
+    errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_by_side)
+    return replace(refined, errors_by_side=errors)
 
 
 def on_last_mesh(
-    kind: Formulation[S], refined: Refined[S], iterate: S, kernels: PairKernels, left: float
-) -> Refined[S]:
+    formulation: Formulation[IterateT],
+    refined: Refined[IterateT],
+    iterate: IterateT,
+    kernels: PairKernels,
+    left: float,
+) -> Refined[IterateT]:
     """Return a refined solution at finite strain with other lagged terms on its last mesh.
 
     ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(iterate), kind.overlap(iterate, kernels, "finite"))
-    figures = kind.figures(iterate, "finite")
-    found = replace(refined, iterate=iterate, on_sides=figures, residual=left)
-    return with_errors_of_powers(kind, found, "finite")
+    left = max(left, violation(iterate), formulation.overlap(iterate, kernels, "finite"))
+    figures = formulation.figures(iterate, "finite")
+    found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
+    return with_errors_of_powers(formulation, found, "finite")

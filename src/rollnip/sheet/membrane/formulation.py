@@ -38,7 +38,7 @@ class MembraneFormulation:
         """Length over which bending stiffness acts: infinite, for there is none."""
         return inf
 
-    def peaks_allowed(self, model: Model) -> tuple[float]:
+    def peak_tolerances(self, model: Model) -> tuple[float]:
         """Return the allowed relative error of the peak pressure."""
         return (model.tolerance,)
 
@@ -72,14 +72,14 @@ class MembraneFormulation:
         """Return the relative overlap outside the contact, or the relative tension in it."""
         return overlap(iterate, kernels, geometry)
 
-    def holding(self, iterate: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
+    def with_corrections(self, iterate: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(kernels))
         lagged = lagged_terms(problem, "finite", iterate.state)
         change = change_of(lagged, iterate.lagged, problem, iterate.state)
         return replace(iterate, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, iterate: MembraneIterate, other: MembraneIterate) -> float:
+    def residual_with_terms_of(self, iterate: MembraneIterate, other: MembraneIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 

@@ -81,7 +81,7 @@ class MembraneSearch:
     kernels: PairKernels
     moves: Moves[MembraneZones] = field(default_factory=Moves)
 
-    def begun(self, half_width: float, count: int) -> MembraneIterate:
+    def start(self, half_width: float, count: int) -> MembraneIterate:
         """Return a first solution in linear geometry, on a mesh that extends beyond the contact.
 
         ``half_width``: approximate half-width of the nip [mm]; ``count``: number of elements.
@@ -100,14 +100,14 @@ class MembraneSearch:
         zones = MembraneZones.around(problem.mesh.inner, state, problem.frictions)
         return MembraneIterate(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
 
-    def placed(
-        self, zones: MembraneZones, count: int, before: MembraneIterate, closely: float
+    def settle_zones(
+        self, zones: MembraneZones, count: int, before: MembraneIterate, end_tolerance: float
     ) -> MembraneIterate:
         """Return the solution on a mesh of one size with nodes at the ends of its zones.
 
-        ``closely``: allowed error of a zone end, over the tolerance times the width.
+        ``end_tolerance``: allowed error of a zone end, over the tolerance times the width.
         """
-        placed = closely * self.model.tolerance
+        allowed = end_tolerance * self.model.tolerance
         steps, misplacement = before.steps, before.misplacement
         changes = 0
         known = min(misplacement, 1.0)
@@ -140,13 +140,13 @@ class MembraneSearch:
             stay = misplacement > _FAIRLY_PLACED and not changes
             # If conditions are violated and the nodal states call for unlike zones, the states
             # are checked at once; without violation only when no end moves any more, and once.
-            moves = misplacement > placed
+            moves = misplacement > allowed
             if is_met:
                 stay = stay or moves or changes > 0 or called.are_like
             else:
                 stay = stay or (moves and called.are_like)
             if stay:
-                if misplacement <= placed and iterate.settled and is_fine and is_met:
+                if misplacement <= allowed and iterate.settled and is_fine and is_met:
                     return replace(iterate, zones=proposed, misplacement=misplacement)
                 zones = (
                     proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)

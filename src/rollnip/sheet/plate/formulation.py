@@ -42,7 +42,7 @@ class PlateFormulation:
         """Length over which bending stiffness acts [mm]."""
         return bending_length(self.nip)
 
-    def peaks_allowed(self, model: Model) -> tuple[float, float]:
+    def peak_tolerances(self, model: Model) -> tuple[float, float]:
         """Return the allowed relative error of the peak pressure on each side.
 
         On a bare roller finite strain leaves the peak more uncertain than the tolerance.
@@ -91,7 +91,7 @@ class PlateFormulation:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
         return overlap(iterate, kernels, geometry)
 
-    def holding(self, iterate: PlateIterate, kernels: PairKernels) -> PlateIterate:
+    def with_corrections(self, iterate: PlateIterate, kernels: PairKernels) -> PlateIterate:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         meshes = list(iterate.problem.meshes)
         for side, roller in enumerate((self.nip.upper, self.nip.lower)):
@@ -103,7 +103,7 @@ class PlateFormulation:
         change = change_of(lagged, iterate.lagged, problem, iterate.state)
         return replace(iterate, problem=problem, lagged=lagged, change=change)
 
-    def missed(self, iterate: PlateIterate, other: PlateIterate) -> float:
+    def residual_with_terms_of(self, iterate: PlateIterate, other: PlateIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
         return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 

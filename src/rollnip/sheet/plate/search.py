@@ -25,7 +25,7 @@ from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.formulation import CLOSELY
+from rollnip.sheet.formulation import END_TOLERANCE
 from rollnip.sheet.membrane.search import SHORTEST_LAYER
 from rollnip.sheet.plate.complementarity import solve_node_by_node
 from rollnip.sheet.plate.initial_zones import InitialZones
@@ -78,7 +78,7 @@ class PlateSearch:
     kernels: PairKernels
     moves: Moves[PlateZones] = field(default_factory=Moves)
 
-    def begun(self, half_width: float, count: int) -> PlateIterate:
+    def start(self, half_width: float, count: int) -> PlateIterate:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         zones = self._first.around(half_width, count).without_slivers()
@@ -91,21 +91,21 @@ class PlateSearch:
     def _first(self) -> InitialZones:
         return InitialZones(self.nip, self.kernels)
 
-    def placed(
+    def settle_zones(
         self,
         zones: PlateZones,
         count: int,
         before: PlateIterate,
-        closely: float,
+        end_tolerance: float,
     ) -> PlateIterate:
         """Return the solution on meshes of one size with nodes at the ends of its zones.
 
-        ``before``: a solution with approximately these zones; ``closely``: allowed error of a zone
-        end, over the tolerance times the width.
+        ``before``: a solution with approximately these zones; ``end_tolerance``: allowed error of a
+        zone end, over the tolerance times the width.
         """
-        placed = closely * self.model.tolerance
+        allowed = end_tolerance * self.model.tolerance
         try:
-            iterate = self._moved_until(zones, count, before, placed)
+            iterate = self._moved_until(zones, count, before, allowed)
         except np.linalg.LinAlgError:
             return replace(before, settled=False)
         if iterate.settled:
@@ -113,18 +113,18 @@ class PlateSearch:
         start = iterate.zones if iterate.zones.is_proper else zones
         try:
             found = self._first.closer(start, iterate.lagged, count)
-            again = self._moved_until(found, count, iterate, placed)
+            again = self._moved_until(found, count, iterate, allowed)
         except np.linalg.LinAlgError:
             return iterate
         return again if again.settled or again.misplacement < iterate.misplacement else iterate
 
     def _moved_until(
-        self, zones: PlateZones, count: int, before: PlateIterate, placed: float
+        self, zones: PlateZones, count: int, before: PlateIterate, allowed: float
     ) -> PlateIterate:
         """Move the zone ends until they converge, and change zones with wrong states.
 
         Slip that a single node calls for is tried; if it does not converge, the solution without it
-        is returned. ``placed``: allowed error of a zone end, over the width.
+        is returned. ``allowed``: allowed error of a zone end, over the width.
         """
         self.moves.refined()
         shapes = _Shapes()
@@ -133,7 +133,7 @@ class PlateSearch:
         iterate, misplacement = before, inf
         fair: PlateIterate | None = None
         for _ in range(_MOST_MESHES):
-            zones = zones.without_slivers().reopened(CLOSELY * self.model.tolerance)
+            zones = zones.without_slivers().reopened(END_TOLERANCE * self.model.tolerance)
             if not zones.is_proper:
                 break
             iterate, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), iterate)
@@ -144,7 +144,7 @@ class PlateSearch:
             violated = violation(iterate)
             is_fair = violated <= self.model.tolerance
             is_met = max(violated, shear_over(iterate)) <= self._slack
-            is_placed = misplacement <= placed and iterate.settled and is_fine
+            is_placed = misplacement <= allowed and iterate.settled and is_fine
             is_placed = is_placed and not pulls_at_edges(iterate)
             is_placed = is_placed and added_to_peaks(iterate, proposed) <= self.model.tolerance
             if is_met and is_placed:
@@ -165,7 +165,7 @@ class PlateSearch:
                     shapes.clear()
                     continue
                 proposed = zones.moved(problem, iterate.state, found)
-                if is_placed and proposed.distance(zones) <= placed:
+                if is_placed and proposed.distance(zones) <= allowed:
                     break
             zones = proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
         return _unplaced(zones, iterate, misplacement) if fair is None else fair

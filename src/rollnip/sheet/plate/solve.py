@@ -194,7 +194,7 @@ def _verdict(
 def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
     """Return one side for its verdict, without the error of a peak that is within its own limit."""
     peak = final.error.peak_pressure
-    if peak > PlateFormulation(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
+    if peak > PlateFormulation(nip).peak_tolerances(model)[side] * final.figures.peak_pressure:
         return final
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 

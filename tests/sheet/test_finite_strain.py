@@ -244,9 +244,9 @@ def test_stresses_inside_are_those_of_finite_strain():
     for name, shear in (("upper", solution.profiles.shear), ("lower", -lower)):
         assert solution.is_finite_inside(name)
         found = solution.interior(name, z=0.0)
-        x, carried = solution.profiles.x, solution.profiles.pressure
+        x, interpolated_terms = solution.profiles.x, solution.profiles.pressure
         allowed = 2e-3 * solution.peak_pressure
-        assert np.abs(found.s_zz[0] + np.interp(found.x, x, carried)).max() < allowed
+        assert np.abs(found.s_zz[0] + np.interp(found.x, x, interpolated_terms)).max() < allowed
         assert np.abs(np.abs(found.s_xz[0]) - np.abs(np.interp(found.x, x, shear))).max() < allowed
         assert np.abs(shear).max() > 50.0 * allowed
 

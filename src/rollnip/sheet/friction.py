@@ -19,7 +19,7 @@ def frictions_of(nip: Nip) -> tuple[float, float]:
     return nip.friction_on("upper"), nip.friction_on("lower")
 
 
-def parted(states: States, shear: Array) -> States:
+def with_stick_between_slips(states: States, shear: Array) -> States:
     """Return states of one interface with a sticking node wherever slip reverses its sign.
 
     It is the one of the two nodes with less shear. ``states`` is modified in place.

@@ -40,7 +40,7 @@ class InterfaceProblem(Protocol):
         """Return the creep of both interfaces over each interval, each (n,) [mm]."""
         ...
 
-    def sheared(self, state: Any, side: int) -> Array:
+    def shear_forces(self, state: Any, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         ...
 

@@ -107,7 +107,7 @@ def smooth_works(iterate: AnyIterate) -> list[tuple[float, float]]:
     """Return `slip_works` for only the creep that the contact conditions follow [N/mm]."""
     problem, state, out = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
-        work = problem.sheared(state, side) * (iterate.creeps[side][:-1] / mesh.dx[:-1])
+        work = problem.shear_forces(state, side) * (iterate.creeps[side][:-1] / mesh.dx[:-1])
         out.append(slip_losses(work, slip_zones(state.side(side).states)))
     return out
 

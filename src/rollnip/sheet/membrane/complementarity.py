@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.friction import parted
+from rollnip.sheet.friction import with_stick_between_slips
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 _LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
-def solve_node_by_node(
+def solve_complementarity(
     problem: MembraneProblem, lagged: MembraneTerms, half_width: float
 ) -> MembraneState:
     """Return the solution on a mesh whose nodal contact, stick and slip meet all conditions.
@@ -39,7 +39,7 @@ def solve_node_by_node(
     states = found.states.reshape(2, n).copy()
     states[:, ~found.touches] = State.FREE
     for one, shear in zip(states, (above, below), strict=True):
-        parted(one, shear)
+        with_stick_between_slips(one, shear)
     return MembraneState(
         states=states[0],
         pressure=np.where(found.touches, p, 0.0),
@@ -54,19 +54,19 @@ def solve_node_by_node(
     )
 
 
-def slipping(
+def settled_slip(
     problem: MembraneProblem, state: MembraneState, lagged: MembraneTerms, slack: float
 ) -> MembraneState | None:
     """Return the solution for a fixed contact with consistent stick and slip; None if not found.
 
     In each step all nodes take the states that creep and shear call for. Transitions move by a node
     at a time, so there are at most as many steps as nodes. ``state``: a solution close to it;
-    ``slack``: see `next_slip`.
+    ``slack``: see `updated_states`.
     """
     tried: set[bytes] = set()
     for steps in range(1, state.states.size):
         creeps = problem.creeps(state, lagged)
-        wanted = next_slip(problem, state, creeps, slack)
+        wanted = updated_states(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
         if wanted.tobytes() in tried:
@@ -79,7 +79,7 @@ def slipping(
     return None
 
 
-def next_slip(
+def updated_states(
     problem: MembraneProblem, state: MembraneState, creeps: tuple[Array, Array], slack: float
 ) -> States:
     """Return the states of both interfaces that follow from creep and shear, (2, n).
@@ -109,10 +109,13 @@ def _inequalities(
     """Return the complementarity problem of gaps and creeps on a mesh, and a starting point."""
     nip, n, weights = problem.nip, problem.mesh.inner.size, problem.mesh.weights
     matrix, right = np.zeros((3 * n + 3, 3 * n + 3)), np.zeros(3 * n + 3)
-    matrix[: 3 * n, : 3 * n], right[: 3 * n] = problem.matrix, problem.right(lagged).reshape(-1)
+    matrix[: 3 * n, : 3 * n], right[: 3 * n] = (
+        problem.matrix,
+        problem.constant_terms(lagged).reshape(-1),
+    )
     matrix[:n, -3], matrix[n : 2 * n, -2], matrix[2 * n : -3, -1] = -1.0, problem.dx, problem.dx
     depth, slope = 0.5 * nip.curvature * half_width**2, nip.curvature * half_width
-    guess, pressure = _guessed(problem, half_width, depth)
+    guess, pressure = _initial_pressure(problem, half_width, depth)
     force = pressure * half_width
     scales = np.concatenate([np.full(n, depth), np.tile(slope * problem.dx, 2), np.full(3, force)])
     if isinstance(nip.normal, LineLoad):
@@ -144,7 +147,9 @@ def _inequalities(
     )
 
 
-def _guessed(problem: MembraneProblem, half_width: float, depth: float) -> tuple[Array, float]:
+def _initial_pressure(
+    problem: MembraneProblem, half_width: float, depth: float
+) -> tuple[Array, float]:
     """Return an elliptic pressure that indents the rollers as deep as they overlap; its peak."""
     x, n = problem.mesh.inner, problem.mesh.inner.size
     middle = 0.5 * (x[0] + x[-1])

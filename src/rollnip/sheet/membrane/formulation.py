@@ -14,7 +14,13 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
-from rollnip.sheet.membrane.lagged_terms import change_of, lagged_terms, missed, path_turn, pulls_of
+from rollnip.sheet.membrane.lagged_terms import (
+    change_of_terms,
+    lagged_terms,
+    path_turn,
+    pulls_of,
+    residual_with_terms,
+)
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.search import MembraneIterate, MembraneSearch, overlap
 from rollnip.sheet.membrane.system import MembraneMesh
@@ -76,12 +82,12 @@ class MembraneFormulation:
         """Return a solution with lagged terms from other corrections; it has a new ``change``."""
         problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(kernels))
         lagged = lagged_terms(problem, "finite", iterate.state)
-        change = change_of(lagged, iterate.lagged, problem, iterate.state)
+        change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)
         return replace(iterate, problem=problem, lagged=lagged, change=change)
 
     def residual_with_terms_of(self, iterate: MembraneIterate, other: MembraneIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
-        return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
+        return residual_with_terms(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 
 
 def strain_at(iterate: MembraneIterate) -> Array:
@@ -106,7 +112,7 @@ def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
     """
     problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
-    above, below = problem.sheared(state, 0), problem.sheared(state, 1)
+    above, below = problem.shear_forces(state, 0), problem.shear_forces(state, 1)
     pushed, sheared = above - below, above + below
     strain = (problem.strain_over(state) / mesh.dx)[:-1]
     rate = sheet_rate(*state.creepages)

@@ -24,7 +24,7 @@ from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, Membra
 Array = NDArray[np.float64]
 
 
-def first_lagged(problem: MembraneProblem) -> MembraneTerms:
+def initial_terms(problem: MembraneProblem) -> MembraneTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     n, tangential = problem.mesh.inner.size, problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
@@ -32,7 +32,7 @@ def first_lagged(problem: MembraneProblem) -> MembraneTerms:
     return MembraneTerms(np.zeros(n), np.zeros((2, n)), traction)
 
 
-def has_none(problem: MembraneProblem, geometry: Geometry) -> bool:
+def has_no_terms(problem: MembraneProblem, geometry: Geometry) -> bool:
     """Return whether the problem is linear, without any term that depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
 
@@ -41,8 +41,8 @@ def lagged_terms(
     problem: MembraneProblem, geometry: Geometry, state: MembraneState
 ) -> MembraneTerms:
     """Return the lagged terms that follow from a solution."""
-    first = first_lagged(problem)
-    if has_none(problem, geometry):
+    first = initial_terms(problem)
+    if has_no_terms(problem, geometry):
         return first
     nip, mesh = problem.nip, problem.mesh
     flat = mesh.linear_displacements(state)
@@ -61,7 +61,7 @@ def lagged_terms(
     return MembraneTerms(clearance, offsets, traction, lean)
 
 
-def change_of(
+def change_of_terms(
     new: MembraneTerms, old: MembraneTerms, problem: MembraneProblem, state: MembraneState
 ) -> float:
     """Return the largest change of the terms, relative to the first-order quantities."""
@@ -80,7 +80,7 @@ def change_of(
     return largest(*changes)
 
 
-def missed(
+def residual_with_terms(
     new: MembraneTerms, old: MembraneTerms, problem: MembraneProblem, state: MembraneState
 ) -> float:
     """Return the relative residual of a solution under other lagged terms.

@@ -46,11 +46,11 @@ class FactorisedMembrane:
             self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
         )
         assert info == 0
-        contact, sticks = _places(states)
+        contact, sticks = _unknown_indices(states)
         n, n_c = states.shape[1], contact.size
         pressure = np.zeros(n)
         pressure[contact] = unknowns[:n_c]
-        shears = _ratios(problem, states) * pressure
+        shears = _slip_ratios(problem, states) * pressure
         shears.reshape(-1)[sticks] = unknowns[n_c:-3]
         approach, creepage, lower = unknowns[-3:].tolist()
         return MembraneState(
@@ -67,22 +67,22 @@ class FactorisedMembrane:
         )
 
 
-def _places(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _unknown_indices(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the indices of nodes in contact, and of sticking shears among both interfaces'."""
     return (states[0] != State.FREE).nonzero()[0], (states == State.STICK).reshape(-1).nonzero()[0]
 
 
-def _ratios(problem: MembraneProblem, states: States) -> Array:
+def _slip_ratios(problem: MembraneProblem, states: States) -> Array:
     """Return shear over pressure where the interfaces slip, 0 elsewhere, (2, n)."""
     return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
 
 
 def _matrix(problem: MembraneProblem, states: States) -> Array:
     """Return the matrix of gaps in contact, creeps in stick, and three prescribed quantities."""
-    n, (contact, sticks) = states.shape[1], _places(states)
+    n, (contact, sticks) = states.shape[1], _unknown_indices(states)
     n_c, size = contact.size, contact.size + sticks.size
     rows = np.concatenate([contact, n + sticks])
-    ratios = _ratios(problem, states)
+    ratios = _slip_ratios(problem, states)
     influence = problem.matrix.take(rows, axis=0)
     for side, ratio in enumerate(ratios):
         if ratio.any():
@@ -100,16 +100,16 @@ def _matrix(problem: MembraneProblem, states: States) -> Array:
     else:
         matrix[-3, -3] = 1.0
     # The change of tension through the nip, then T_l or the sum of the creepages.
-    matrix[-2, :size] = _sums(problem.pulls, ratios[0], contact, sticks)
-    matrix[-2, :size] -= _sums(problem.pulls, ratios[1], contact, sticks - n)
+    matrix[-2, :size] = _shear_integral(problem.pulls, ratios[0], contact, sticks)
+    matrix[-2, :size] -= _shear_integral(problem.pulls, ratios[1], contact, sticks - n)
     if isinstance(problem.nip.tangential, Creepage):
         matrix[-1, -2:] = 1.0
     else:
-        matrix[-1, :size] = _sums(weights, ratios[1], contact, sticks - n)
+        matrix[-1, :size] = _shear_integral(weights, ratios[1], contact, sticks - n)
     return matrix
 
 
-def _sums(
+def _shear_integral(
     weights: Array, ratio: Array, contact: NDArray[np.intp], sticks: NDArray[np.intp]
 ) -> Array:
     """Return the integral of one interface's shear, per pressure and per sticking shear.
@@ -122,8 +122,8 @@ def _sums(
 
 
 def _right_side(problem: MembraneProblem, states: States, lagged: MembraneTerms) -> Array:
-    contact, sticks = _places(states)
-    right, nip = problem.right(lagged), problem.nip
+    contact, sticks = _unknown_indices(states)
+    right, nip = problem.constant_terms(lagged), problem.nip
     normal, tangential = nip.normal, nip.tangential
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction

@@ -111,7 +111,7 @@ class SheetPath:
         return 0.25 * thickness * np.stack(parts, axis=1)
 
 
-def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
+def stabilised_tension(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
     """Return the integral of the tension over each interval, stabilised where tension dominates.
 
     Where a node's shear stretches its interval more through the sheet's tension than through the
@@ -128,7 +128,7 @@ def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
     return np.asarray((1.0 - share) * found.over + share * lumped)
 
 
-def influence(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
+def influence_matrix(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     """Return gap, upper and lower creep per nodal p, q_u and q_l, (3 n, 3 n) [mm/MPa].
 
     The strain of the sheet due to tension is not included.

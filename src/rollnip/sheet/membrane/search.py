@@ -36,8 +36,17 @@ from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_lay
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import Iterate
-from rollnip.sheet.membrane.complementarity import next_slip, slipping, solve_node_by_node
-from rollnip.sheet.membrane.lagged_terms import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.membrane.complementarity import (
+    settled_slip,
+    solve_complementarity,
+    updated_states,
+)
+from rollnip.sheet.membrane.lagged_terms import (
+    change_of_terms,
+    has_no_terms,
+    initial_terms,
+    lagged_terms,
+)
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.system import (
     MembraneMesh,
@@ -89,11 +98,11 @@ class MembraneSearch:
         reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
         for _ in range(_MOST_REACHES):
             problem = self._problem(MembraneZones.sticking(reach), shape, None)
-            lagged = first_lagged(problem)
-            state, steps = solve_node_by_node(problem, lagged, half_width), 0
-            if not has_none(problem, "linear"):
+            lagged = initial_terms(problem)
+            state, steps = solve_complementarity(problem, lagged, half_width), 0
+            if not has_no_terms(problem, "linear"):
                 lagged, steps = lagged_terms(problem, "linear", state), state.steps
-                state = solve_node_by_node(problem, lagged, half_width)
+                state = solve_complementarity(problem, lagged, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
@@ -128,7 +137,7 @@ class MembraneSearch:
                 elements = elements_of_zones(breaks, count, wanted_crowding, _LEAST_SHARE)
                 crowding = wanted_crowding
             problem = self._problem(zones, (elements, crowding), iterate)
-            start = carried(iterate, problem)
+            start = interpolated_terms(iterate, problem)
             iterate = self._solved(problem, zones, start, steps, (near, misplacement))
             steps = iterate.steps
             called = _ZonesByStates(iterate, self._slack)
@@ -223,13 +232,13 @@ class MembraneSearch:
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1
-            if has_none(problem, self.model.geometry):
+            if has_no_terms(problem, self.model.geometry):
                 break
             if misplacement[0] > _NEARLY_PLACED:
                 change = 1.0
                 break
             updated = lagged_terms(problem, self.model.geometry, state)
-            change, lagged = change_of(updated, lagged, problem, state), updated
+            change, lagged = change_of_terms(updated, lagged, problem, state), updated
             if not change > still:
                 break
         if not (np.isfinite(change) and np.all(np.isfinite(state.pressure))):
@@ -247,9 +256,9 @@ class MembraneSearch:
     ) -> tuple[MembraneIterate, MembraneZones] | None:
         """Return other zones between known edges, found node by node; None where there are none."""
         problem = iterate.problem
-        state = slipping(problem, iterate.state, iterate.lagged, self._slack)
+        state = settled_slip(problem, iterate.state, iterate.lagged, self._slack)
         if state is None:
-            state = solve_node_by_node(problem, iterate.lagged, 0.5 * iterate.zones.width)
+            state = solve_complementarity(problem, iterate.lagged, 0.5 * iterate.zones.width)
         zones = MembraneZones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None
@@ -263,7 +272,7 @@ class _ZonesByStates:
     Attributes
     ----------
     iterate : the solution.
-    slack : see `next_slip`.
+    slack : see `updated_states`.
     """
 
     iterate: MembraneIterate
@@ -272,7 +281,7 @@ class _ZonesByStates:
     @cached_property
     def _wanted(self) -> States:
         iterate = self.iterate
-        return next_slip(iterate.problem, iterate.state, iterate.creeps, self.slack)
+        return updated_states(iterate.problem, iterate.state, iterate.creeps, self.slack)
 
     @cached_property
     def _found(self) -> MembraneZones | None:
@@ -325,7 +334,7 @@ def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) 
     return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 
-def carried(iterate: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
+def interpolated_terms(iterate: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
     """Return the lagged terms of a solution, interpolated to another mesh."""
     old, new, lagged = iterate.problem.mesh, problem.mesh, iterate.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))

@@ -33,7 +33,12 @@ from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.friction import frictions_of
-from rollnip.sheet.membrane.matrices import Integrals, SheetPath, influence, stable
+from rollnip.sheet.membrane.matrices import (
+    Integrals,
+    SheetPath,
+    influence_matrix,
+    stabilised_tension,
+)
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -202,10 +207,10 @@ class MembraneProblem:
         assert sheet is not None
         arcs = np.ones(mesh.fine.nodes.size - 1) if arcs is None else arcs
         found = Integrals.on(mesh, arcs)
-        matrix = influence(mesh, sheet, found)
+        matrix = influence_matrix(mesh, sheet, found)
         n = mesh.inner.size
         own = np.minimum(np.diagonal(matrix)[n:].reshape(2, n), -_TINY)
-        over = stable(mesh, sheet, found, own)
+        over = stabilised_tension(mesh, sheet, found, own)
         made = sheet.stretch_by_tension * over
         _, upper, lower = matrix.reshape(3, n, 3, n)
         for block in (upper[:, 1], lower[:, 2]):
@@ -247,7 +252,7 @@ class MembraneProblem:
         """Operator for the path of the sheet on this mesh."""
         return SheetPath.on(self.mesh)
 
-    def right(self, lagged: MembraneTerms) -> Array:
+    def constant_terms(self, lagged: MembraneTerms) -> Array:
         """Return the parts of gaps and creeps that do not depend on the unknowns, (3, n) [mm]."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         stretch = sheet.stretch_by_tension * pulled * self.dx
@@ -269,7 +274,7 @@ class MembraneProblem:
     def gap_and_creeps(self, state: MembraneState, lagged: MembraneTerms) -> Array:
         """Return the gap at the nodes and both creeps over the intervals, (3, n) [mm]."""
         tractions = np.concatenate([state.pressure, state.shear, state.shear_lower])
-        made = (self.matrix @ tractions).reshape(3, -1) + self.right(lagged)
+        made = (self.matrix @ tractions).reshape(3, -1) + self.constant_terms(lagged)
         made[0] -= state.approach
         made[1] += state.creepage * self.dx
         made[2] += state.creepage_lower * self.dx
@@ -280,7 +285,7 @@ class MembraneProblem:
         _, upper, lower = self.gap_and_creeps(state, lagged)
         return upper, lower
 
-    def sheared(self, state: MembraneState, side: int) -> Array:
+    def shear_forces(self, state: MembraneState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         return np.asarray(-np.diff(self.tension @ state.shears[side]))
 

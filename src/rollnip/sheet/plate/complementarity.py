@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, interior_point
 from rollnip.nip import LineLoad
-from rollnip.sheet.friction import parted
-from rollnip.sheet.plate.linear_system import FURTHER, equations, given
+from rollnip.sheet.friction import with_stick_between_slips
+from rollnip.sheet.plate.linear_system import EXTRA_UNKNOWNS, constant_terms, equations
 from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
@@ -21,7 +21,7 @@ _ENOUGH = 1e-4  # residual at which the states are accepted although it shrinks 
 _LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
-def solve_node_by_node(
+def solve_complementarity(
     problem: PlateProblem, lagged: PlateTerms, edges: Edges
 ) -> tuple[PlateState, int]:
     """Return the solution on two meshes whose nodal contact, stick and slip meet all conditions.
@@ -47,7 +47,7 @@ def solve_node_by_node(
     p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
     approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
     states = [
-        parted(np.where(touches, slips, State.FREE).astype(np.int8), shear)
+        with_stick_between_slips(np.where(touches, slips, State.FREE).astype(np.int8), shear)
         for touches, slips, shear in (
             (found.touches[:n], found.states[:n], q_u),
             (found.touches[n:], found.states[n:], q_l),
@@ -73,14 +73,14 @@ def _inequalities(
 ) -> tuple[Inequalities, Array]:
     """Return the complementarity problem of gaps and creeps on two meshes, and a starting point."""
     a, b, c, d, end = problem.starts
-    matrix, right = equations(problem), given(problem, lagged)
+    matrix, right = equations(problem), constant_terms(problem, lagged)
     curvature = problem.nip.curvature
     half_widths = [0.5 * (leading - trailing) for trailing, leading in edges]
     half_width = max(half_widths)
     depth, slope = 0.5 * curvature * half_width**2, curvature * half_width
-    guess, force = _guessed(problem, edges, depth)
-    scales, start = np.empty(end + FURTHER), np.zeros(end + FURTHER)
-    sizes = np.empty(end + FURTHER)
+    guess, force = _initial_pressure(problem, edges, depth)
+    scales, start = np.empty(end + EXTRA_UNKNOWNS), np.zeros(end + EXTRA_UNKNOWNS)
+    sizes = np.empty(end + EXTRA_UNKNOWNS)
     for side, (first, middle, last) in enumerate(((a, b, c), (c, d, end))):
         # the depth of a contact goes with the square of its width
         scales[first:middle] = 0.5 * curvature * half_widths[side] ** 2
@@ -88,7 +88,7 @@ def _inequalities(
         start[first:middle], sizes[first:last] = guess[side], float(guess[side].max())
     scales[end:] = force, force, force * half_width, force, force
     sizes[end:] = depth, slope, slope, depth, slope
-    for row in (0, FURTHER - 1):  # a given approach, and the creepage of geared rollers
+    for row in (0, EXTRA_UNKNOWNS - 1):  # a given approach, and the creepage of geared rollers
         if not matrix[end + row, :end].any():
             scales[end + row] = depth if row == 0 else slope
     start[end] = depth
@@ -106,7 +106,7 @@ def _inequalities(
     return whole, start
 
 
-def _guessed(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, float]:
+def _initial_pressure(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, float]:
     """Return elliptic pressures of equal force on both interfaces, and that force.
 
     Where the load is not prescribed, it is the one that indents the rollers as deep as they

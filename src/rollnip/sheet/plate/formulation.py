@@ -17,7 +17,12 @@ from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import SIGNS, highest
 from rollnip.sheet.plate.iterate import PlateIterate, overlap
-from rollnip.sheet.plate.lagged_terms import change_of, lagged_terms, missed, pull_of
+from rollnip.sheet.plate.lagged_terms import (
+    change_of_terms,
+    lagged_terms,
+    pull_of,
+    residual_with_terms,
+)
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.powers import Pulls, sheet_powers
@@ -100,12 +105,12 @@ class PlateFormulation:
                 meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
         problem = replace(iterate.problem, meshes=(meshes[0], meshes[1]))
         lagged = lagged_terms(problem, "finite", iterate.state, iterate.lagged)
-        change = change_of(lagged, iterate.lagged, problem, iterate.state)
+        change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)
         return replace(iterate, problem=problem, lagged=lagged, change=change)
 
     def residual_with_terms_of(self, iterate: PlateIterate, other: PlateIterate) -> float:
         """Return the residual of a solution with the lagged terms of ``other``."""
-        return missed(other.lagged, iterate.lagged, iterate.problem, iterate.state)
+        return residual_with_terms(other.lagged, iterate.lagged, iterate.problem, iterate.state)
 
 
 def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
@@ -135,7 +140,7 @@ def _into_sheet(iterate: PlateIterate) -> float:
     curved = iterate.lagged.curved
     rotations = problem.rotations(state, curved)
     for side, mesh in enumerate(problem.meshes):
-        pushed, sign = problem.sheared(state, side), SIGNS[side]
+        pushed, sign = problem.shear_forces(state, side), SIGNS[side]
         strained = problem.strain_over(state, side)[:-1]
         turned = np.diff(direction_of(rotations[side][:-1], curved))
         face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]

@@ -17,9 +17,9 @@ from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.sheet.plate.complementarity import Edges, solve_node_by_node
+from rollnip.sheet.plate.complementarity import Edges, solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
-from rollnip.sheet.plate.lagged_terms import first_lagged, lagged_terms
+from rollnip.sheet.plate.lagged_terms import initial_terms, lagged_terms
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
@@ -51,7 +51,7 @@ class InitialZones:
         for _ in range(_MOST_REACHES):
             problem = self._problem(PlateZones.sticking(reach), 0.0, _ELEMENTS)
             around = (-half_width, half_width)
-            state = self._solved_node_by_node(problem, first_lagged(problem), (around, around))
+            state = self._solve_complementarity(problem, initial_terms(problem), (around, around))
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
@@ -84,19 +84,19 @@ class InitialZones:
     ) -> PlateZones:
         """Return the zones on meshes that end ``margin`` times the width beyond the edges."""
         problem = self._problem(zones, margin, elements)
-        first = first_lagged(problem)
+        first = initial_terms(problem)
         if lagged is not None:
             first = replace(first, traction=lagged.traction, lean=lagged.lean)
-        return PlateZones.around(problem, self._solved_node_by_node(problem, first, zones.edges))
+        return PlateZones.around(problem, self._solve_complementarity(problem, first, zones.edges))
 
-    def _solved_node_by_node(
+    def _solve_complementarity(
         self, problem: PlateProblem, lagged: PlateTerms, edges: Edges
     ) -> PlateState:
         """Return a solution with contact, stick and slip; a prescribed torque takes two solves."""
-        state, _ = solve_node_by_node(problem, lagged, edges)
+        state, _ = solve_complementarity(problem, lagged, edges)
         if isinstance(self.nip.tangential, Torque):
             wanted = lagged_terms(problem, "linear", state).traction
-            state, _ = solve_node_by_node(problem, replace(lagged, traction=wanted), edges)
+            state, _ = solve_complementarity(problem, replace(lagged, traction=wanted), edges)
         return state
 
     def _problem(self, zones: PlateZones, margin: float, count: int) -> PlateProblem:

@@ -123,8 +123,8 @@ def highest(mesh: Mesh, pressure: Array) -> tuple[float, float]:
     if not tops.size:  # no numbers: the search has failed
         return nan, nan
     found = np.array([_highest_about(mesh, pressure, top) for top in tops.tolist()])
-    parted = np.stack([found[:, 0], np.zeros(tops.size)], axis=1).ravel()
-    height, place = found[peaks_alike(parted)[-1] // 2]
+    with_stick_between_slips = np.stack([found[:, 0], np.zeros(tops.size)], axis=1).ravel()
+    height, place = found[peaks_alike(with_stick_between_slips)[-1] // 2]
     return float(height), float(place)
 
 

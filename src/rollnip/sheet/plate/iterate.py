@@ -110,7 +110,7 @@ def _displacements_at(
     return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
-def carried(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:
+def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:
     """Return the lagged terms of a solution, interpolated to other meshes."""
     clearance, offsets, lagged = [], [], iterate.lagged
     for side, (old, new) in enumerate(zip(iterate.problem.meshes, problem.meshes, strict=True)):

@@ -22,7 +22,7 @@ from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 Array = NDArray[np.float64]
 
 
-def first_lagged(problem: PlateProblem) -> PlateTerms:
+def initial_terms(problem: PlateProblem) -> PlateTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     tangential = problem.nip.tangential
     traction = tangential.traction if isinstance(tangential, Traction) else None
@@ -31,7 +31,7 @@ def first_lagged(problem: PlateProblem) -> PlateTerms:
     return PlateTerms((np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), traction)
 
 
-def has_none(problem: PlateProblem, geometry: Geometry) -> bool:
+def has_no_terms(problem: PlateProblem, geometry: Geometry) -> bool:
     """Return whether the problem is linear, without any term that depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
 
@@ -46,8 +46,8 @@ def lagged_terms(
 
     ``before``: the terms that it was solved with; None: none.
     """
-    first = first_lagged(problem)
-    if has_none(problem, geometry):
+    first = initial_terms(problem)
+    if has_no_terms(problem, geometry):
         return first
     clearance, offsets, leans = [], [], []
     old = None if before is None else before.curved
@@ -88,7 +88,9 @@ def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
     return upper, lower
 
 
-def change_of(new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState) -> float:
+def change_of_terms(
+    new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState
+) -> float:
     """Return the largest change of the terms, relative to the first-order quantities."""
     nip = problem.nip
     half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
@@ -118,10 +120,12 @@ def _curved_change(
     return new.curved.change_from(old.curved, load) if load > 0.0 else 0.0
 
 
-def missed(new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState) -> float:
+def residual_with_terms(
+    new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState
+) -> float:
     """Return the relative residual of a solution under other lagged terms.
 
-    See `rollnip.sheet.membrane.lagged_terms.missed`.
+    See `rollnip.sheet.membrane.lagged_terms.residual_with_terms`.
     """
     nip, parts = problem.nip, [0.0]
     creepage = max(map(abs, state.creepages))

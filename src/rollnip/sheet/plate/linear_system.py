@@ -16,7 +16,7 @@ from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
 Array = NDArray[np.float64]
 
-FURTHER = 5
+EXTRA_UNKNOWNS = 5
 """Number of unknowns besides the tractions: approach, two creepages, height and rotation."""
 
 
@@ -40,30 +40,30 @@ class FactorisedPlate:
     def solved(self, lagged: PlateTerms) -> PlateState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
-        right = -given(problem, lagged)[_places(states, problem.starts[-1])]
+        right = -constant_terms(problem, lagged)[_unknown_indices(states, problem.starts[-1])]
         unknowns, info = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
         assert info == 0
         tractions = np.zeros(problem.starts[-1])
-        tractions[_places(states, 0)[:-FURTHER]] = unknowns[:-FURTHER]
+        tractions[_unknown_indices(states, 0)[:-EXTRA_UNKNOWNS]] = unknowns[:-EXTRA_UNKNOWNS]
         p_u, q_u, p_l, q_l = np.split(tractions, problem.starts[1:-1])
-        slips = _ratios(problem, states)
+        slips = _slip_ratios(problem, states)
         q_u, q_l = q_u + slips[0] * p_u, q_l + slips[1] * p_l
-        approach, upper, lower, height, rotation = unknowns[-FURTHER:].tolist()
+        approach, upper, lower, height, rotation = unknowns[-EXTRA_UNKNOWNS:].tolist()
         return PlateState(
             states, (p_u, p_l), (q_u, q_l), approach, (upper, lower), height, rotation
         )
 
 
-def _places(states: tuple[States, States], end: int) -> NDArray[np.intp]:
+def _unknown_indices(states: tuple[States, States], end: int) -> NDArray[np.intp]:
     """Return the indices of the unknowns: pressures in contact, shears in stick, and the rest.
 
     ``end``: number of tractions.
     """
     parts = [mask for one in states for mask in (one != State.FREE, one == State.STICK)]
-    return np.append(np.concatenate(parts).nonzero()[0], np.arange(end, end + FURTHER))
+    return np.append(np.concatenate(parts).nonzero()[0], np.arange(end, end + EXTRA_UNKNOWNS))
 
 
-def _ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
+def _slip_ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
     """Return shear over pressure where the interfaces slip, 0 elsewhere."""
     upper, lower = (
         friction * SIGNS.take(one) for friction, one in zip(problem.frictions, states, strict=True)
@@ -71,7 +71,7 @@ def _ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
     return upper, lower
 
 
-def _conditions(problem: PlateProblem) -> Array:
+def _integral_conditions(problem: PlateProblem) -> Array:
     """Return the rows, (5, r), of the integral conditions on the tractions.
 
     They are the load, the forces across the sheet, the moment on it, the change of tension, and
@@ -80,7 +80,7 @@ def _conditions(problem: PlateProblem) -> Array:
     a, b, c, d, end = problem.starts
     weights = [mesh.weights for mesh in problem.meshes]
     moments = [one.moment for one in problem.spreads]
-    half, rows = 0.5 * problem.sheet.thickness, np.zeros((FURTHER, end))
+    half, rows = 0.5 * problem.sheet.thickness, np.zeros((EXTRA_UNKNOWNS, end))
     rows[0, a:b] = weights[0]
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
@@ -98,8 +98,8 @@ def equations(problem: PlateProblem) -> Array:
     are the tractions, then approach, creepages, height and rotation.
     """
     a, b, c, d, end = problem.starts
-    whole = np.zeros((end + FURTHER, end + FURTHER))
-    whole[:end, :end], whole[end:, :end] = problem.matrix, _conditions(problem)
+    whole = np.zeros((end + EXTRA_UNKNOWNS, end + EXTRA_UNKNOWNS))
+    whole[:end, :end], whole[end:, :end] = problem.matrix, _integral_conditions(problem)
     x_u, x_l = (mesh.inner for mesh in problem.meshes)
     whole[a:b, end], whole[a:b, end + 3], whole[a:b, end + 4] = -1.0, -1.0, -x_u
     whole[c:d, end + 3], whole[c:d, end + 4] = 1.0, x_l
@@ -112,7 +112,7 @@ def equations(problem: PlateProblem) -> Array:
     return whole
 
 
-def given(problem: PlateProblem, lagged: PlateTerms) -> Array:
+def constant_terms(problem: PlateProblem, lagged: PlateTerms) -> Array:
     """Return the parts of the rows of `equations` that do not depend on the unknowns."""
     nip, sheet = problem.nip, problem.sheet
     normal, tangential = nip.normal, nip.tangential
@@ -121,14 +121,14 @@ def given(problem: PlateProblem, lagged: PlateTerms) -> Array:
     assert last is not None
     pulled, curved = sheet.tension_in - sheet.tension_out, lagged.curved
     force, moment = (0.0, 0.0) if curved is None else (curved.whole, curved.moment)
-    return np.concatenate([problem.right(lagged), [-load, force, moment, -pulled, -last]])
+    return np.concatenate([problem.constant_terms(lagged), [-load, force, moment, -pulled, -last]])
 
 
 def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:
     """Return the equations for given states: gaps in contact, creeps in stick, five conditions."""
     a, b, c, d, end = problem.starts
-    whole, places = equations(problem), _places(states, end)
-    for ratio, at in zip(_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):
+    whole, places = equations(problem), _unknown_indices(states, end)
+    for ratio, at in zip(_slip_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):
         if ratio.any():
             whole[:, at[0] : at[1]] += whole[:, at[1] : at[2]] * ratio
     return np.asarray(whole[np.ix_(places, places)])

@@ -27,20 +27,20 @@ from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_lay
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import END_TOLERANCE
 from rollnip.sheet.membrane.search import SHORTEST_LAYER
-from rollnip.sheet.plate.complementarity import solve_node_by_node
+from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.initial_zones import InitialZones
 from rollnip.sheet.plate.interface import interface_mesh, path_ratio
 from rollnip.sheet.plate.iterate import (
     PlateIterate,
     added_to_peaks,
-    carried,
+    interpolated_terms,
     pulls_at_edges,
     shear_over,
 )
 from rollnip.sheet.plate.lagged_terms import (
-    change_of,
-    first_lagged,
-    has_none,
+    change_of_terms,
+    has_no_terms,
+    initial_terms,
     lagged_terms,
 )
 from rollnip.sheet.plate.linear_system import FactorisedPlate
@@ -182,7 +182,7 @@ class PlateSearch:
         ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
         """
         problem, is_fine = self._problem(zones, sizes, misplacement[0], before)
-        start = first_lagged(problem) if before is None else carried(before, problem)
+        start = initial_terms(problem) if before is None else interpolated_terms(before, problem)
         steps = 0 if before is None else before.steps
         return self._solved(problem, zones, start, steps, misplacement[1]), is_fine
 
@@ -277,10 +277,10 @@ class PlateSearch:
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
-            if has_none(problem, self.model.geometry):
+            if has_no_terms(problem, self.model.geometry):
                 break
             updated = lagged_terms(problem, self.model.geometry, state, lagged)
-            change, lagged = change_of(updated, lagged, problem, state), updated
+            change, lagged = change_of_terms(updated, lagged, problem, state), updated
             if not change > still:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)
@@ -297,7 +297,7 @@ class PlateSearch:
         if max(mesh.inner.size for mesh in iterate.problem.meshes) > _MOST_NODES:
             return None
         try:
-            state, _ = solve_node_by_node(iterate.problem, iterate.lagged, iterate.zones.edges)
+            state, _ = solve_complementarity(iterate.problem, iterate.lagged, iterate.zones.edges)
         except np.linalg.LinAlgError:
             return None
         found = edges.found(iterate.problem, state)

@@ -166,7 +166,7 @@ class PlateProblem:
         """Return nodes[1:] of the upper, then of the lower mesh, (m,) [mm]."""
         return np.concatenate([mesh.nodes[1:] for mesh in self.meshes])
 
-    def right(self, lagged: PlateTerms) -> Array:
+    def constant_terms(self, lagged: PlateTerms) -> Array:
         """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         out, half = [], 0.5 * sheet.thickness
@@ -188,7 +188,9 @@ class PlateProblem:
         self, state: PlateState, lagged: PlateTerms
     ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Return the gap at the nodes and the creep of the intervals, for each interface [mm]."""
-        made = np.split(self.matrix @ state.tractions + self.right(lagged), self.starts[1:-1])
+        made = np.split(
+            self.matrix @ state.tractions + self.constant_terms(lagged), self.starts[1:-1]
+        )
         for side, mesh in enumerate(self.meshes):
             moved = state.height + state.rotation * mesh.inner
             made[2 * side] -= SIGNS[side] * moved
@@ -201,7 +203,7 @@ class PlateProblem:
         (_, upper), (_, lower) = self.gaps_and_creeps(state, lagged)
         return upper, lower
 
-    def sheared(self, state: PlateState, side: int) -> Array:
+    def shear_forces(self, state: PlateState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         one, mesh = self.pulls[side], self.meshes[side]
         beyond = one.of(state.shear[side]).moments_beyond(mesh.inner)[0, :, 0]

@@ -14,7 +14,7 @@ from rollnip.contact import cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.interface import interface_mesh
-from rollnip.sheet.plate.loads import Spread, about
+from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 
 LINEAR = rn.Model(geometry="linear")
 BOARD = replace(rn.Sheet.usual("board"), bending=True, tension_in=0.3, tension_out=0.2)
@@ -71,9 +71,9 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
     # interface: Gauss points took the kinks of K for smooth, which made pressures waver by 1e-3.
     mesh, values, line = tractions
     plate = replace(Plate.of(BOARD), tension=tension)
-    one = Spread.on(mesh, BOARD, plate).of(values)
-    beyond = one.moments_beyond(np.array([x]))
-    found = [float(part[0, 0]) for part in one.bent(np.array([x]), beyond)]
+    one = PiecewiseLoads.on(mesh, BOARD, plate).of(values)
+    tail_moments = one.tail_moments_at(np.array([x]))
+    found = [float(part[0, 0]) for part in one.bent(np.array([x]), tail_moments)]
     pieces = np.sort(np.append(mesh.fine.nodes, np.clip(x, -1.1, 0.9)))
 
     def integral(function):
@@ -90,7 +90,7 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
     assert found == pytest.approx(wanted, rel=1e-9, abs=1e-11 if tension == 1e-3 else 0.0)
     for k, factor in enumerate((1.0, 1.0, 0.5, 1.0 / 6.0)):
         ahead = integral(lambda s, k=k, c=factor: c * max(s - x, 0.0) ** k if s > x else 0.0)
-        at_k = float(about(np.array([x]), beyond, k)[0, 0])
+        at_k = float(moments_about(np.array([x]), tail_moments, k)[0, 0])
         assert at_k == pytest.approx(ahead, rel=1e-9, abs=1e-13)
 
 
@@ -145,7 +145,7 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
     problem, state = iterate.problem, iterate.state
     force = moment = 0.0
     for side, sign in ((0, -1.0), (1, 1.0)):
-        mesh, one = problem.meshes[side], problem.spreads[side]
+        mesh, one = problem.meshes[side], problem.loads[side]
         force += sign * float(mesh.weights @ state.pressure[side])
         moment += sign * float(one.moment @ state.pressure[side])
         moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])

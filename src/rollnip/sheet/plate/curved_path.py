@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from rollnip.sheet.bending import COUNTED, bending_length
 from rollnip.sheet.plate.interface import SIGNS, values_at
-from rollnip.sheet.plate.loads import Spread
+from rollnip.sheet.plate.loads import PiecewiseLoads
 
 if TYPE_CHECKING:
     from rollnip.sheet.plate.system import PlateProblem, PlateState
@@ -44,14 +44,14 @@ class CurvedLoad:
     height, turned : height [mm] and rotation of the plate due to them at these places, each (m,).
     """
 
-    couple: Spread
-    force: Spread
+    couple: PiecewiseLoads
+    force: PiecewiseLoads
     places: Array
     height: Array
     turned: Array
 
     @classmethod
-    def of(cls, couple: Spread, force: Spread, places: Array) -> CurvedLoad:
+    def of(cls, couple: PiecewiseLoads, force: PiecewiseLoads, places: Array) -> CurvedLoad:
         """Return the load with its effect at given places."""
         return cls(couple, force, places, *_bent(couple, force, places))
 
@@ -82,10 +82,10 @@ class CurvedLoad:
         return float(couple.max() + np.trapezoid(force, x)) / load
 
 
-def _bent(couple: Spread, force: Spread, x: Array) -> tuple[Array, Array]:
+def _bent(couple: PiecewiseLoads, force: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
     turned, pushed = (
-        couple.bent(x, couple.moments_beyond(x)),
-        force.bent(x, force.moments_beyond(x)),
+        couple.bent(x, couple.tail_moments_at(x)),
+        force.bent(x, force.tail_moments_at(x)),
     )
     return (turned[1] + pushed[0])[:, 0], (turned[2] + pushed[1])[:, 0]
 
@@ -129,7 +129,7 @@ def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     couple = slope * _tension_left_out(problem, state, x)
     parts = couple[:, None], (-slope * (sheared - rise))[:, None]
-    first, second = (Spread.of_lines(x, part, sheet, plate) for part in parts)
+    first, second = (PiecewiseLoads.of_lines(x, part, sheet, plate) for part in parts)
     return CurvedLoad.of(first, second, x)
 
 

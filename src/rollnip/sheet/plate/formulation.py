@@ -118,10 +118,10 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
 
     Between these nodes the slope of the tension, q_u - q_l, is linear.
     """
-    x = np.unique(np.concatenate([one.nodes for one in problem.pulls]))
+    x = np.unique(np.concatenate([one.nodes for one in problem.path_shears]))
     upper, lower = (
         np.interp(x, one.nodes, one.of(shear).lines[:, 0])
-        for one, shear in zip(problem.pulls, state.shear, strict=True)
+        for one, shear in zip(problem.path_shears, state.shear, strict=True)
     )
     slope = upper - lower
     turns = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)

@@ -79,13 +79,13 @@ def _integral_conditions(problem: PlateProblem) -> Array:
     """
     a, b, c, d, end = problem.starts
     weights = [mesh.weights for mesh in problem.meshes]
-    moments = [one.moment for one in problem.spreads]
+    moments = [one.moment for one in problem.loads]
     half, rows = 0.5 * problem.sheet.thickness, np.zeros((EXTRA_UNKNOWNS, end))
     rows[0, a:b] = weights[0]
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
     rows[2, b:c], rows[2, d:] = half * weights[0], half * weights[1]
-    rows[3, b:c], rows[3, d:] = problem.pulls[0].whole, -problem.pulls[1].whole
+    rows[3, b:c], rows[3, d:] = problem.path_shears[0].whole, -problem.path_shears[1].whole
     rows[4, d:] = weights[1]
     return rows
 

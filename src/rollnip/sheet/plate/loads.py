@@ -26,7 +26,7 @@ _FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the shee
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class PiecewiseLoads:
     """Piecewise-linear tractions in one or more sets, whose effect on the sheet can be evaluated.
 
     Attributes
@@ -34,17 +34,19 @@ class Spread:
     sheet, plate : on which they act.
     nodes : (M + 1,) between which they are linear [mm].
     lines : (M + 1, n) nodal values of n sets.
-    beyond : (4, M + 1, n) int_x^inf s^k/k! t ds from each node to infinity [mm^(k + 1)].
+    tail_moments : (4, M + 1, n) int_x^inf s^k/k! t ds from each node to infinity [mm^(k + 1)].
     """
 
     sheet: Sheet
     plate: Plate
     nodes: Array
     lines: Array
-    beyond: Array
+    tail_moments: Array
 
     @classmethod
-    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None) -> Spread:
+    def on(
+        cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None
+    ) -> PiecewiseLoads:
         """Return the unit tractions of all nodes of a mesh.
 
         ``along``: factors at its fine nodes, such as ds/dx; None: all 1.
@@ -57,31 +59,31 @@ class Spread:
         return cls.of_lines(nodes, lines, sheet, plate)
 
     @classmethod
-    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
+    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> PiecewiseLoads:
         """Return tractions given by nodal values, (M + 1, n)."""
         first, last = _moments(nodes[:-1], np.diff(nodes))[..., None]
         pieces = first * lines[:-1] + last * lines[1:]
-        beyond = np.zeros((4, *lines.shape))
-        np.cumsum(pieces[:, ::-1], axis=1, out=beyond[:, -2::-1])
-        return cls(sheet, plate, nodes, lines, beyond)
+        tail_moments = np.zeros((4, *lines.shape))
+        np.cumsum(pieces[:, ::-1], axis=1, out=tail_moments[:, -2::-1])
+        return cls(sheet, plate, nodes, lines, tail_moments)
 
-    def of(self, values: Array) -> Spread:
+    def of(self, values: Array) -> PiecewiseLoads:
         """Return tractions for nodal values of the mesh, one set (n,) or s sets (n, s)."""
         sets = values.reshape(values.shape[0], -1)
-        return replace(self, lines=self.lines @ sets, beyond=self.beyond @ sets)
+        return replace(self, lines=self.lines @ sets, tail_moments=self.tail_moments @ sets)
 
     @property
     def whole(self) -> Array:
         """Return int t dx of each set, (n,) [mm]."""
-        return np.asarray(self.beyond[0, 0])
+        return np.asarray(self.tail_moments[0, 0])
 
     @property
     def moment(self) -> Array:
         """Return int x t dx of each set, (n,) [mm^2]."""
-        return np.asarray(self.beyond[1, 0])
+        return np.asarray(self.tail_moments[1, 0])
 
-    def moments_beyond(self, x: Array) -> Array:
-        """Return the integrals ``beyond`` from given places on, (4, m, n); exact."""
+    def tail_moments_at(self, x: Array) -> Array:
+        """Return the integrals ``tail_moments`` from given places on, (4, m, n); exact."""
         inside = np.clip(x, self.nodes[0], self.nodes[-1])
         at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
         length = self.nodes[at + 1] - inside
@@ -89,15 +91,15 @@ class Spread:
         first, last = _moments(inside, length)
         out = (first * share)[..., None] * self.lines[at]
         out += (first * (1.0 - share) + last)[..., None] * self.lines[at + 1]
-        return np.asarray(out + self.beyond[:, at + 1])
+        return np.asarray(out + self.tail_moments[:, at + 1])
 
-    def bent(self, x: Array, beyond: Array) -> tuple[Array, Array, Array]:
+    def bent(self, x: Array, tail_moments: Array) -> tuple[Array, Array, Array]:
         """Return the bending of the plate at given places, with the tractions as loads.
 
         Parameters
         ----------
         x : (m,) places [mm].
-        beyond : `moments_beyond` of these places.
+        tail_moments : `tail_moments_at` of these places.
 
         Returns
         -------
@@ -105,14 +107,14 @@ class Spread:
         (m, n).
         """
         # |x - s|^3/6 and its derivatives: twice the part ahead, less the signed total
-        whole = self.beyond[:, :1]
-        ahead = 2.0 * beyond - whole
-        distances = about(x, ahead, 1)
+        whole = self.tail_moments[:, :1]
+        ahead = 2.0 * tail_moments - whole
+        distances = moments_about(x, ahead, 1)
         sheared = -0.5 * self.plate.shear * distances
         length, yielding = self.plate.length, 0.5 / self.plate.stiffness
         if length > _FEEBLE * float(np.ptp(self.nodes)):
-            height = yielding * about(x, ahead, 3) + sheared
-            slope, bend = -yielding * about(x, ahead, 2), yielding * distances
+            height = yielding * moments_about(x, ahead, 3) + sheared
+            slope, bend = -yielding * moments_about(x, ahead, 2), yielding * distances
             if self.plate.tension > 0.0:
                 places, forces = self._points
                 less = self.plate.straightened(x[:, None] - places)
@@ -124,8 +126,8 @@ class Spread:
         before, after = self._decayed(x)
         yielding *= length
         near = whole[0] - before - after
-        height = about(x, whole, 2) - length * distances + length**2 * near
-        slope = -about(x, whole, 1) + length * (ahead[0] + before - after)
+        height = moments_about(x, whole, 2) - length * distances + length**2 * near
+        slope = -moments_about(x, whole, 1) + length * (ahead[0] + before - after)
         return yielding * height + sheared, yielding * slope, yielding * near
 
     def _decayed(self, x: Array) -> tuple[Array, Array]:
@@ -169,18 +171,18 @@ class Spread:
         """
         return sheared(self.sheet, x, self.nodes, self.lines[1:-1], far)
 
-    def warped(self, x: Array, far: NDArray[np.bool_], beyond: Array) -> Array:
+    def warped(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
         """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.warp`.
 
-        g t is the stretch of the face under pressures t, without bending; ``beyond``:
-        `moments_beyond` of the places; ``far``: see `squeezed`.
+        g t is the stretch of the face under pressures t, without bending; ``tail_moments``:
+        `tail_moments_at` of the places; ``far``: see `squeezed`.
         """
         sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
         signs = np.where(far, -1.0, 1.0)
         less = sheet.sheared / sheet.thickness
         long = alike - 0.5 * less * (LONG_WAVES[0] + signs * LONG_WAVES[1])
         short = warped(sheet.thickness, x, self.nodes, self.lines, far)
-        return np.asarray(long[:, None] * beyond[0] - less * short)
+        return np.asarray(long[:, None] * tail_moments[0] - less * short)
 
     @property
     def _points(self) -> tuple[Array, Array]:
@@ -194,7 +196,7 @@ class Spread:
         return np.concatenate(places), np.concatenate(forces)
 
 
-def about(x: Array, moments: Array, order: int) -> Array:
+def moments_about(x: Array, moments: Array, order: int) -> Array:
     """Return int (s - x)^k/k! t ds, (m, n), from the moments int s^j/j! t ds, (4, m or 1, n).
 
     k is the ``order``; moments up to that order are used.

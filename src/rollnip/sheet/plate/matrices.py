@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.interface import SIGNS, stretch_by
-from rollnip.sheet.plate.loads import Spread, about
+from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -18,11 +18,13 @@ _STEEP = 4.0  # exponent of the blend between exact and lumped integrals of the 
 
 
 def gaps_and_creeps_of(
-    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], pulls: tuple[Spread, Spread]
+    meshes: tuple[Mesh, Mesh],
+    loads: tuple[PiecewiseLoads, PiecewiseLoads],
+    path_shears: tuple[PiecewiseLoads, PiecewiseLoads],
 ) -> tuple[Array, Array]:
     """Return gaps and creeps, and rotations of the sheet, per unit traction.
 
-    ``spreads``, ``pulls``: see `PlateProblem`.
+    ``loads``, ``path_shears``: see `PlateProblem`.
 
     Returns
     -------
@@ -33,7 +35,7 @@ def gaps_and_creeps_of(
     n, m = (mesh.inner.size for mesh in meshes)
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_upper = np.arange(x.size) <= n
-    by_shears = [_changes(one.sheared(x, is_upper == by)) for by, one in enumerate(spreads)]
+    by_shears = [_changes(one.sheared(x, is_upper == by)) for by, one in enumerate(loads)]
     above = np.diagonal(by_rollers[0][n:, n:]) + np.diagonal(by_shears[0][:n])
     below = np.diagonal(by_rollers[1][m:, m:]) + np.diagonal(by_shears[1][n + 1 :])
     own = np.concatenate([above, [-1.0], below])
@@ -41,7 +43,7 @@ def gaps_and_creeps_of(
     matrix = np.empty((2 * (n + m), 2 * (n + m)))
     turned = np.empty((x.size, 2 * (n + m)))
     for by, columns in enumerate(places):
-        made, turned[:, columns] = _by_sheet(meshes, (spreads[by], pulls[by]), by, own)
+        made, turned[:, columns] = _by_sheet(meshes, loads[by], path_shears[by], by, own)
         made[1, :, 1] += by_shears[by]
         for at, block in enumerate((matrix[: 2 * n, columns], matrix[2 * n :, columns])):
             block[:] = made[:, rows[at]].reshape(block.shape)
@@ -64,13 +66,17 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 
 
 def _by_sheet(
-    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], by: int, own: Array
+    meshes: tuple[Mesh, Mesh],
+    loads: PiecewiseLoads,
+    path_shears: PiecewiseLoads,
+    by: int,
+    own: Array,
 ) -> tuple[Array, Array]:
     """Return gaps and creeps due to the sheet under tractions on one interface, without `sheared`.
 
     Parameters
     ----------
-    spreads : of loads and of pulls on the interface ``by``.
+    loads, path_shears : unit tractions on the interface ``by``, see `PlateProblem`.
     by : the loaded interface, 0 the upper and 1 the lower.
     own : (m - 1,) see `_lumped_share`.
 
@@ -80,30 +86,29 @@ def _by_sheet(
     up to the next place, per pressure and shear; the entry between the two meshes is meaningless.
     And (m, 2 n) rotations of the sections at the places.
     """
-    one, pull = spreads
-    sheet, half, there = one.sheet, 0.5 * one.sheet.thickness, SIGNS[by]
+    sheet, half, there = loads.sheet, 0.5 * loads.sheet.thickness, SIGNS[by]
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_far = (np.arange(x.size) < meshes[0].nodes.size - 1) == by
     here = np.where(is_far[:-1], -there, there)[:, None]
     signs = here * there
-    loads = one.moments_beyond(x)
-    pulled = loads if pull is one else pull.moments_beyond(x)
-    height, slope, bend = one.bent(x, loads)
-    out = np.empty((2, x.size - 1, 2, one.lines.shape[1]))
+    load_tails = loads.tail_moments_at(x)
+    shear_tails = load_tails if path_shears is loads else path_shears.tail_moments_at(x)
+    height, slope, bend = loads.bent(x, load_tails)
+    out = np.empty((2, x.size - 1, 2, loads.lines.shape[1]))
     # y is driven by -p_u and +p_l; the upper gap contains -y, the lower one +y
-    out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_far[:-1])
-    warped = one.warped(x, is_far, loads)
-    tilted = warped if pull is one else pull.warped(x, is_far, pulled)
+    out[0, :, 0] = signs * height[:-1] + loads.squeezed(x[:-1], is_far[:-1])
+    warped = loads.warped(x, is_far, load_tails)
+    tilted = warped if path_shears is loads else path_shears.warped(x, is_far, shear_tails)
     out[0, :, 1] = half * here * slope[:-1] - there * tilted[:-1]
     out[1, :, 0] = here * _changes(warped)
     out[1, :, 0] -= there * half * _changes(slope)
-    exact = _stretched(sheet, signs, _changes(about(x, pulled, 1)), _changes(bend))
+    exact = _stretched(sheet, signs, _changes(moments_about(x, shear_tails, 1)), _changes(bend))
     share = _lumped_share(sheet, np.diff(x), own)
     if share.any():
         ahead = meshes[by].inner - x[:, None]
-        bends = one.plate.curvature(ahead)
+        bends = loads.plate.curvature(ahead)
         lumped = _stretched(sheet, signs, _changes(np.maximum(ahead, 0.0)), _changes(bends))
-        exact += share * (pull.whole * lumped - exact)
+        exact += share * (path_shears.whole * lumped - exact)
     out[1, :, 1] = exact
     return out, np.concatenate([-there * slope, -half * bend], axis=1)
 

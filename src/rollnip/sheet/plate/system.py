@@ -11,8 +11,8 @@ faces towards the middle, its tension N and its strain e,
     creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
 
 with e = a N + b (p_u + p_l)/2; bending stretches the faces by -+ h y''/2. The local deformation of
-an elastic layer is added to all of these (`Spread.sheared`, `Spread.warped`). The forces across the
-sheet are in equilibrium, and its tension balances the moment of the nip on it.
+an elastic layer is added to all of these (`PiecewiseLoads.sheared`, `PiecewiseLoads.warped`). The
+forces across the sheet are in equilibrium, and its tension balances the moment of the nip on it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from rollnip.sheet.plate.interface import (
     stretch_by,
     values_at,
 )
-from rollnip.sheet.plate.loads import Spread, about
+from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 from rollnip.sheet.plate.matrices import Pair, gaps_and_creeps_of
 from rollnip.sheets import Sheet
 
@@ -115,8 +115,8 @@ class PlateProblem:
     Attributes
     ----------
     nip, sheet, plate : the physical problem.
-    meshes, spreads : of the upper and the lower interface.
-    pulls : shears along the sheet's path, whose `beyond` are int x^k/k! q ds.
+    meshes, loads : of the upper and the lower interface.
+    path_shears : shears along the sheet's path, whose `tail_moments` are int x^k/k! q ds.
     frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
@@ -127,8 +127,8 @@ class PlateProblem:
     sheet: Sheet
     plate: Plate
     meshes: tuple[Mesh, Mesh]
-    spreads: tuple[Spread, Spread]
-    pulls: tuple[Spread, Spread]
+    loads: tuple[PiecewiseLoads, PiecewiseLoads]
+    path_shears: tuple[PiecewiseLoads, PiecewiseLoads]
     frictions: tuple[float, float]
     matrix: Array
     turned: Array
@@ -144,16 +144,19 @@ class PlateProblem:
         sheet = nip.sheet
         assert sheet is not None
         plate = Plate.of(sheet)
-        spreads = Spread.on(meshes[0], sheet, plate), Spread.on(meshes[1], sheet, plate)
-        pulls = spreads
+        loads = (
+            PiecewiseLoads.on(meshes[0], sheet, plate),
+            PiecewiseLoads.on(meshes[1], sheet, plate),
+        )
+        path_shears = loads
         if arcs is not None:
             upper, lower = (
-                Spread.on(mesh, sheet, plate, along)
+                PiecewiseLoads.on(mesh, sheet, plate, along)
                 for mesh, along in zip(meshes, arcs, strict=True)
             )
-            pulls = upper, lower
-        made = gaps_and_creeps_of(meshes, spreads, pulls)
-        return cls(nip, sheet, plate, meshes, spreads, pulls, frictions_of(nip), *made)
+            path_shears = upper, lower
+        made = gaps_and_creeps_of(meshes, loads, path_shears)
+        return cls(nip, sheet, plate, meshes, loads, path_shears, frictions_of(nip), *made)
 
     @property
     def starts(self) -> tuple[int, int, int, int, int]:
@@ -205,8 +208,8 @@ class PlateProblem:
 
     def shear_forces(self, state: PlateState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        one, mesh = self.pulls[side], self.meshes[side]
-        beyond = one.of(state.shear[side]).moments_beyond(mesh.inner)[0, :, 0]
+        one, mesh = self.path_shears[side], self.meshes[side]
+        beyond = one.of(state.shear[side]).tail_moments_at(mesh.inner)[0, :, 0]
         return np.asarray(-np.diff(beyond))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
@@ -218,8 +221,8 @@ class PlateProblem:
     def tension_at(self, state: PlateState, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
-            one.of(shear).moments_beyond(x)[0, :, 0]
-            for one, shear in zip(self.pulls, state.shear, strict=True)
+            one.of(shear).tail_moments_at(x)[0, :, 0]
+            for one, shear in zip(self.path_shears, state.shear, strict=True)
         )
         return np.asarray(self.sheet.tension_in - upper + lower)
 
@@ -252,11 +255,11 @@ class PlateProblem:
         return upper, lower
 
     def _bent_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
-        """Return the bending by pressure and by shear of each interface, see `Spread.bent`."""
+        """Return the bending by pressure and shear of each interface, see `PiecewiseLoads.bent`."""
         out = []
-        for one, *tractions in zip(self.spreads, state.pressure, state.shear, strict=True):
+        for one, *tractions in zip(self.loads, state.pressure, state.shear, strict=True):
             both = one.of(np.stack(tractions, axis=1))
-            made = both.bent(x, both.moments_beyond(x))
+            made = both.bent(x, both.tail_moments_at(x))
             out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
         return out
 
@@ -264,10 +267,10 @@ class PlateProblem:
         """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
         both = np.tile(x, 2)
         out = np.full((2, x.size), 0.5 * self.sheet.stretch_by_pressure * self.sheet.tension_in)
-        for side, one in enumerate(self.spreads):
+        for side, one in enumerate(self.loads):
             far = np.repeat(np.arange(2) != side, x.size)
-            pulled = self.pulls[side].of(state.shear[side])
-            warped = pulled.warped(both, far, pulled.moments_beyond(both))
+            pulled = self.path_shears[side].of(state.shear[side])
+            warped = pulled.warped(both, far, pulled.tail_moments_at(both))
             made = one.of(state.pressure[side]).squeezed(both, far) - SIGNS[side] * warped
             out += made.reshape(2, x.size)
         return out
@@ -297,9 +300,9 @@ class PlateProblem:
         tension = sheet.tension_in * mesh.dx
         pressed = np.zeros(mesh.dx.size)
         x = mesh.nodes[1:]
-        for number, one in enumerate(self.spreads):
-            pulled = self.pulls[number].of(state.shear[number]).moments_beyond(x)
-            tension += SIGNS[number] * np.diff(about(x, pulled, 1)[:, 0])
-            pressed -= np.diff(one.of(state.pressure[number]).moments_beyond(x)[0, :, 0])
+        for number, one in enumerate(self.loads):
+            pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
+            tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
+            pressed -= np.diff(one.of(state.pressure[number]).tail_moments_at(x)[0, :, 0])
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

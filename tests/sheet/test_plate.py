@@ -16,7 +16,7 @@ from rollnip.contact import Layout, State
 from rollnip.sheet.checks import sheet_verdict
 from rollnip.sheet.plate.solve import _verdict
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.secant import Moves
+from rollnip.sheet.secant import SecantSteps
 
 HERE = Path(__file__).parents[1]
 STORED = json.loads((HERE / "data" / "plate_direct.json").read_text(encoding="utf-8"))
@@ -391,9 +391,9 @@ def test_nodes_crowd_opposite_edges_and_the_begin_of_stick():
 
 def test_an_end_that_is_asked_to_and_fro_goes_where_the_secant_says():
     # what a solution asks for is five times as far as the end is off: 0.2 is where it belongs
-    moves, here = Moves[PlateZones](), 0.0
+    secants, here = SecantSteps[PlateZones](), 0.0
     for _ in range(3):
         zones = PlateZones(*(Layout(np.array([here, 9.0]), np.array([1], dtype=np.int8)),) * 2)
         asked = zones.with_ends(zones.ends + 5.0 * np.array([0.2 - here, 0.0] * 2))
-        here = float(moves.next(zones, asked).ends[0])
+        here = float(secants.next(zones, asked).ends[0])
     assert here == pytest.approx(0.2, abs=1e-12)

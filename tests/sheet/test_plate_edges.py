@@ -10,7 +10,7 @@ from sheet_nips import RIGID, nip_with, paper
 import rollnip as rn
 from rollnip.contact import Layout, State, cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
-from rollnip.sheet.plate.interface import highest, interface_mesh
+from rollnip.sheet.plate.interface import interface_mesh, interface_peak
 from rollnip.sheet.plate.iterate import added_to_peaks
 from rollnip.sheet.plate.zones import PlateZones
 
@@ -27,7 +27,7 @@ def test_a_peak_on_few_elements_is_that_of_their_cubics(elements, lean):
         return np.sqrt(np.maximum(x * (2.0 - x), 0.0)) * (1.0 + lean * 0.25 * x**2)
 
     place = minimize_scalar(lambda x: -pressure(x), bounds=(0.0, 2.0), options={"xatol": 1e-9}).x
-    found, at = highest(mesh, pressure(mesh.inner))
+    found, at = interface_peak(mesh, pressure(mesh.inner))
     # the cubics at the finer nodes are no higher, and the highest is of the fourth order
     between = mesh.between(pressure(mesh.inner))
     assert found >= between.max() * (1.0 - 1e-12)

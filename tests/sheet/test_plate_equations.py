@@ -22,7 +22,7 @@ BOARD = replace(rn.Sheet.usual("board"), bending=True, tension_in=0.3, tension_o
 
 def _kernel(plate, x):
     """K and its first two derivatives by what tension takes of |x|^3/(12 D)."""
-    less = (0.0, 0.0, 0.0) if plate.tension == 0.0 else plate.straightened(np.array([x]))
+    less = (0.0, 0.0, 0.0) if plate.tension == 0.0 else plate.reduction_by_tension(np.array([x]))
     stiff = 12.0 * plate.stiffness
     free = abs(x) ** 3 / stiff, 3.0 * x * abs(x) / stiff, 6.0 * abs(x) / stiff
     return [one - float(np.squeeze(two)) for one, two in zip(free, less, strict=True)]
@@ -42,7 +42,7 @@ def test_the_kernel_solves_the_equation_of_a_plate(tension):
         start = plate.stiffness * _kernel(plate, 0.0)[2] - tension * _kernel(plate, 0.0)[0]
         for x in (0.05, 0.7, 3.0):
             height, _, bent = _kernel(plate, x)
-            parabola = 0.5 * x**2 / plate.righting
+            parabola = 0.5 * x**2 / plate.righting_moment
             line = plate.stiffness * bent - tension * (height - parabola)
             assert line - start == pytest.approx(0.5 * x, rel=1e-6)
 
@@ -149,14 +149,14 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
         force += sign * float(mesh.weights @ state.pressure[side])
         moment += sign * float(one.moment @ state.pressure[side])
         moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])
-    righting = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
+    righting_moment = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
     curved = iterate.lagged.curved
     if curved is not None:
         force, moment = force + curved.whole, moment + curved.moment
     # lagged terms have changed once more since
     least = 1e-12 if curved is None else 1e-6
     assert force == pytest.approx(0.0, abs=least * pulled.load)
-    assert moment == pytest.approx(righting * state.rotation, abs=max(least, 1e-10))
+    assert moment == pytest.approx(righting_moment * state.rotation, abs=max(least, 1e-10))
     # far away it runs along the x axis again, both sides parallel
     far = problem.rotation_at(state, np.array([-400.0, 400.0]), curved)
     assert far == pytest.approx(0.0, abs=10.0 * max(least, 1e-10))

@@ -9,7 +9,7 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 
 
-def sheet_layer(nip: Nip) -> float:
+def tension_layer(nip: Nip) -> float:
     """Return the length over which the sheet takes over a change of the shear [mm].
 
     Over shorter lengths the surface of a roller deforms less than the sheet stretches under the
@@ -43,7 +43,7 @@ def squeeze_layer(nip: Nip) -> float:
     return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
 
 
-def unlike_layer(rollers: Sequence[Roller], tolerance: float) -> float:
+def mismatch_layer(rollers: Sequence[Roller], tolerance: float) -> float:
     """Return the length in which nodes crowd beside compressible surfaces, over the width.
 
     Beside a stiff sheet the tractions at a zone end behave as s^(1/2 + i e) in stick, with tanh(pi

@@ -84,7 +84,7 @@ def claimed_of_powers(
 ) -> SheetFigures:
     """Return errors that are at least the reversed slip work and the mismatch of the torques.
 
-    ``works``, ``off``: of both sides, see `slip_works` and `off_the_moments`.
+    ``works``, ``off``: of both sides, see `slip_works` and `torque_mismatch`.
     """
     values = errors.values.copy()
     for side, (_, reversed_slip), left in zip(("upper", "lower"), works, off, strict=True):

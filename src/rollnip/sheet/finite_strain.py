@@ -34,7 +34,7 @@ from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate
-from rollnip.sheet.powers import smooth_works
+from rollnip.sheet.powers import smooth_slip_works
 from rollnip.sheet.refine import Refined, initial_elements, on_last_mesh, refine
 
 _MOST_RESTARTS = 10  # iterations that are solved from the beginning
@@ -173,7 +173,7 @@ def _iterate_until_settled(
 
 def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:
     """Return a refined solution with the residual ``cut`` due to what the correction leaves out."""
-    figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.iterate)
+    figures, ((upper, _), (lower, _)) = refined.figures, smooth_slip_works(refined.iterate)
     losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
     return replace(refined, cut=cut, cut_losses=losses)
 

@@ -36,7 +36,7 @@ _PEAK, _PEAK_ON_RIGID = 4, 6.5  # index of the peak pressure; its change where e
 _PULLS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
 
 
-def left_by_bending_freely(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
+def neglected_bending_errors(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
     """Return the error of each figure due to the neglected bending, (20,).
 
     Parameters

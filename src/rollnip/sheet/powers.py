@@ -95,7 +95,7 @@ def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tu
     """
     rates, out = rates_of(geometry, sum(iterate.state.creepages)), []
     for side, ((lost, reversed_slip), sign) in enumerate(
-        zip(smooth_works(iterate), (1.0, -1.0), strict=True)
+        zip(smooth_slip_works(iterate), (1.0, -1.0), strict=True)
     ):
         whole, smooth = pulls[side]
         lost += sign * rates[side] * (whole - smooth)
@@ -103,7 +103,7 @@ def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tu
     return out
 
 
-def smooth_works(iterate: AnyIterate) -> list[tuple[float, float]]:
+def smooth_slip_works(iterate: AnyIterate) -> list[tuple[float, float]]:
     """Return `slip_works` for only the creep that the contact conditions follow [N/mm]."""
     problem, state, out = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
@@ -112,7 +112,7 @@ def smooth_works(iterate: AnyIterate) -> list[tuple[float, float]]:
     return out
 
 
-def off_the_moments(iterate: AnyIterate, spent: SheetPowers) -> Array:
+def torque_mismatch(iterate: AnyIterate, spent: SheetPowers) -> Array:
     """Return the mismatch of torques and moments of the tractions over the radii, (2,) [N/mm].
 
     In equilibrium of all orders they are equal. Both come from finite-element displacements, and a

@@ -22,7 +22,7 @@ from rollnip.sheet.formulation import (
     ZoneSearch,
 )
 from rollnip.sheet.iterate import AnyIterate
-from rollnip.sheet.powers import off_the_moments, slip_works
+from rollnip.sheet.powers import slip_works, torque_mismatch
 
 _GROWTH = 1.6  # largest growth of the number of elements from size to size
 _LEAST_GROWTH = 1.25
@@ -233,7 +233,7 @@ def with_errors_of_powers(
     works = slip_works(iterate, geometry, formulation.pulls(iterate, geometry))
     left = np.zeros(2)
     if geometry == "finite":
-        left = off_the_moments(iterate, refined.figures.powers)
+        left = torque_mismatch(iterate, refined.figures.powers)
     errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_by_side)
     return replace(refined, errors_by_side=errors)
 

@@ -40,7 +40,7 @@ Z = TypeVar("Z", bound=Ends)
 
 
 @dataclass(slots=True)
-class Moves(Generic[Z]):
+class SecantSteps(Generic[Z]):
     """State of the secant iteration: last zone ends, their proposed moves, and secant slopes.
 
     Attributes
@@ -56,7 +56,7 @@ class Moves(Generic[Z]):
     step: Array | None = None
     slopes: Array | None = None
 
-    def refined(self) -> None:
+    def begin_size(self) -> None:
         """Begin with meshes of another size: forget the last move, keep the slopes."""
         self.step = None
 

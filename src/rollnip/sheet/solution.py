@@ -26,10 +26,11 @@ from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
 from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.local_deformation import squeezed
 from rollnip.sheet.membrane.formulation import traction_slope
 from rollnip.sheet.membrane.search import MembraneIterate
 from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
-from rollnip.sheet.neglected_bending import left_by_bending_freely, wrapped_length
+from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
@@ -40,7 +41,6 @@ from rollnip.sheet.result import (
     slip_share_of,
     zones_of,
 )
-from rollnip.sheet.squeeze import squeezed
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
@@ -266,7 +266,7 @@ class SheetSolution(SmoothSolution):
         if sheet is not None and sheet.bending is None and not self.bends:
             edges = self.refined.iterate.zones.edges
             wrapped = wrapped_length(self.nip, self.deformed_surfaces, edges)
-            least += left_by_bending_freely(self.nip, figures, wrapped)
+            least += neglected_bending_errors(self.nip, figures, wrapped)
         out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
         if self.model.geometry not in FINITE:
             return out

@@ -30,10 +30,10 @@ from rollnip.sheet.checks import (
 from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
-from rollnip.sheet.plate.solve import longest_freely, solve_plate
+from rollnip.sheet.plate.solve import membrane_limit, solve_plate
 from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.solution import SheetSolution
-from rollnip.sheet.status import with_errors_said
+from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
 
 # Largest relative change of a width over the ratio of bending length to nip width, among the nips
@@ -72,7 +72,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         )
     require_torque(nip)
     assert nip.sheet is not None
-    asked, freely = nip.sheet.bending, longest_freely(nip, model, cache)
+    asked, freely = nip.sheet.bending, membrane_limit(nip, model, cache)
     record: Record = (version, ())
     if asked or (asked is None and spreading_length(nip) > freely):
         counted = solve_plate(nip, model, cache, record)
@@ -81,10 +81,10 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         if bending_length(nip) > freely:  # otherwise the errors cover the tension's effect
             said = "No solution with the sheet's bending stiffness could be verified."
             record = (version, (Reservation("no_plate", said),))
-    return _bending_freely(nip, model, cache, record, start)
+    return _solve_as_membrane(nip, model, cache, record, start)
 
 
-def _bending_freely(
+def _solve_as_membrane(
     nip: Nip,
     model: Model,
     cache: KernelCache,
@@ -100,7 +100,7 @@ def _bending_freely(
     model, kernels, refined, left = _refined(nip, model, cache)
     left = simpler + left
     require_grip(nip, refined)
-    final = as_round(nip, refined)
+    final = membrane_round(nip, refined)
     converged, status = (
         (False, simpler[0].text) if simpler else sheet_verdict(nip, model, refined, final)
     )
@@ -129,7 +129,7 @@ def _bending_freely(
         max_surface_strain=strains.surface,
         refined=refined,
     )
-    return with_errors_said(solution)
+    return with_errors_in_status(solution)
 
 
 def _refined(
@@ -185,7 +185,7 @@ def _solve_in_geometry(
         return None
 
 
-def as_round(nip: Nip, refined: Refined[MembraneIterate]) -> Round:
+def membrane_round(nip: Nip, refined: Refined[MembraneIterate]) -> Round:
     """Return a membrane solution as the `Round` of a bare nip, with the shear of the upper side."""
     iterate, figures = refined.iterate, refined.figures
     mesh, n = iterate.problem.mesh, iterate.problem.mesh.inner.size

@@ -14,7 +14,7 @@ from rollnip.verdict import WORDS, left_open
 Solved = TypeVar("Solved", bound=SheetSolution)
 
 
-def with_errors_said(solution: Solved) -> Solved:
+def with_errors_in_status(solution: Solved) -> Solved:
     """Return a valid solution with all errors beyond the tolerance named in its status.
 
     Where the model leaves a figure uncertain by more than the tolerance, the mesh may contribute as

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.squeeze import squeezed
+from rollnip.sheet.local_deformation import squeezed
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]

@@ -32,10 +32,11 @@ from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
+from rollnip.sheet.boundary_layers import mismatch_layer, squeeze_layer, tension_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import Iterate
+from rollnip.sheet.local_deformation import squeezed
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
     solve_complementarity,
@@ -57,8 +58,7 @@ from rollnip.sheet.membrane.system import (
     membrane_mesh_on,
 )
 from rollnip.sheet.membrane.zones import MembraneZones
-from rollnip.sheet.secant import Moves
-from rollnip.sheet.squeeze import squeezed
+from rollnip.sheet.secant import SecantSteps
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -88,7 +88,7 @@ class MembraneSearch:
     nip: Nip
     model: Model
     kernels: PairKernels
-    moves: Moves[MembraneZones] = field(default_factory=Moves)
+    secants: SecantSteps[MembraneZones] = field(default_factory=SecantSteps)
 
     def start(self, half_width: float, count: int) -> MembraneIterate:
         """Return a first solution in linear geometry, on a mesh that extends beyond the contact.
@@ -125,7 +125,7 @@ class MembraneSearch:
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
         iterate = before
-        self.moves.refined()
+        self.secants.begin_size()
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
             if not zones.is_proper:
@@ -140,9 +140,9 @@ class MembraneSearch:
             start = interpolated_terms(iterate, problem)
             iterate = self._solved(problem, zones, start, steps, (near, misplacement))
             steps = iterate.steps
-            called = _ZonesByStates(iterate, self._slack)
+            requested = _RequestedZones(iterate, self._slack)
             is_near = known <= _NEARLY_PLACED
-            proposed = zones.moved(problem, iterate.state, called, is_near=is_near)
+            proposed = zones.moved(problem, iterate.state, requested, is_near=is_near)
             misplacement = proposed.distance(zones)
             near = known = min(known, misplacement)
             is_met = violation(iterate) <= self._slack
@@ -151,14 +151,16 @@ class MembraneSearch:
             # are checked at once; without violation only when no end moves any more, and once.
             moves = misplacement > allowed
             if is_met:
-                stay = stay or moves or changes > 0 or called.are_like
+                stay = stay or moves or changes > 0 or requested.are_like
             else:
-                stay = stay or (moves and called.are_like)
+                stay = stay or (moves and requested.are_like)
             if stay:
                 if misplacement <= allowed and iterate.settled and is_fine and is_met:
                     return replace(iterate, zones=proposed, misplacement=misplacement)
                 zones = (
-                    proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
+                    proposed
+                    if misplacement > _NEARLY_PLACED
+                    else self.secants.next(zones, proposed)
                 )
                 continue
             changes += 1
@@ -173,13 +175,13 @@ class MembraneSearch:
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return the crowding of nodes at zone ends, ``known`` to this fraction of the width."""
         width, rollers = float(breaks[-1] - breaks[0]), (self.nip.upper, self.nip.lower)
-        shortest = min(self.boundary, unlike_layer(rollers, self.model.tolerance) * width)
+        shortest = min(self.boundary, mismatch_layer(rollers, self.model.tolerance) * width)
         return crowding_of(breaks, max(shortest, max(known, SHORTEST_LAYER) * width))
 
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
+        return min(boundary_layer(self.nip), tension_layer(self.nip), squeeze_layer(self.nip))
 
     def _problem(
         self,
@@ -266,7 +268,7 @@ class MembraneSearch:
 
 
 @dataclass(frozen=True)
-class _ZonesByStates:
+class _RequestedZones:
     """Zones that follow from the nodal states a solution calls for, computed on demand.
 
     Attributes
@@ -299,7 +301,7 @@ class _ZonesByStates:
         same = np.array_equal(self._wanted, self.iterate.state.both_states)
         return same or self._found is not None
 
-    def creeps_back(self, number: int) -> Mask:
+    def creeps_against_shear(self, number: int) -> Mask:
         """Return at which transitions of an interface the slip beside it must stick again, (m,).
 
         There the surfaces creep against their own shear, at the node of the transition and at the

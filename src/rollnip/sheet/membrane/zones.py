@@ -34,7 +34,7 @@ class RequestedZones(Protocol):
         """Return the zones of the upper and of the lower interface."""
         ...
 
-    def creeps_back(self, number: int) -> NDArray[np.bool_]:
+    def creeps_against_shear(self, number: int) -> NDArray[np.bool_]:
         """Return at which transitions of an interface the slip beside it must stick again, (m,)."""
         ...
 
@@ -91,13 +91,13 @@ class MembraneZones(SideZones):
         self,
         problem: MembraneProblem,
         state: MembraneState,
-        called: RequestedZones,
+        requested: RequestedZones,
         *,
         is_near: bool,
     ) -> MembraneZones:
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
-        ``called``: like zones from the nodal states that the solution calls for. They place a
+        ``requested``: like zones from the nodal states that the solution calls for. They place a
         transition where the shears beside it do not, or would move it beyond the middle of a zone;
         and, where ``is_near`` says that ends are close to their places, also where the slip beside
         it creeps back.
@@ -115,9 +115,9 @@ class MembraneZones(SideZones):
             inner = wanted.breaks[1:-1]
             clear = (inner > middles[:-1]) & (inner < middles[1:])
             if is_near and inner.size:
-                clear &= ~called.creeps_back(number)
+                clear &= ~requested.creeps_against_shear(number)
             if not clear.all():
-                inner[~clear] = called.sides[number].breaks[1:-1][~clear]
+                inner[~clear] = requested.sides[number].breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted.breaks, edges), side.states))
         return MembraneZones(sides[0], sides[1])
 

@@ -15,7 +15,8 @@ tension.
 
 Sections also shear. In an isotropic layer the part of the deflection proportional to 1/k^2 is, per
 load, 1.2/(G h) - 2.4 nu (1 + nu)/(E h): the shear of the section, less the effect of the pressures
-through the thickness on its curvature (`rollnip.sheet.squeeze` has the rest, for short waves).
+through the thickness on its curvature (`rollnip.sheet.local_deformation` has the rest, for short
+waves).
 """
 
 from __future__ import annotations
@@ -64,7 +65,7 @@ class Plate:
         return sqrt(self.stiffness / self.tension) if self.tension > 0.0 else inf
 
     @property
-    def righting(self) -> float:
+    def righting_moment(self) -> float:
         """Righting moment of the tension per rotation of the sheet, 2 sqrt(D N) [N]."""
         return 2.0 * sqrt(self.stiffness * self.tension)
 
@@ -74,7 +75,7 @@ class Plate:
         length = self.length
         return yielding * (away if length == inf else -length * np.expm1(-away / length))
 
-    def straightened(self, x: Array) -> tuple[Array, Array, Array]:
+    def reduction_by_tension(self, x: Array) -> tuple[Array, Array, Array]:
         """Return the reduction of a force's effect by tension, at distances ``x`` from the force.
 
         Returns

@@ -15,7 +15,7 @@ from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.plate.curved_path import direction_of
-from rollnip.sheet.plate.interface import SIGNS, highest
+from rollnip.sheet.plate.interface import SIGNS, interface_peak
 from rollnip.sheet.plate.iterate import PlateIterate, overlap
 from rollnip.sheet.plate.lagged_terms import (
     change_of_terms,
@@ -70,14 +70,14 @@ class PlateFormulation:
         upper = SheetFigures.of(
             iterate,
             sheet_powers(iterate, geometry, pulls, _into_sheet(iterate)),
-            highest(problem.meshes[0], state.pressure[0]),
+            interface_peak(problem.meshes[0], state.pressure[0]),
             (float(tension.max()), float(tension.min())),
             float(strain[np.argmax(np.abs(strain))]),
         )
         lower = upper.values.copy()
         lower[_ON_LOWER] = (
             iterate.zones.lower.width,
-            *highest(problem.meshes[1], state.pressure[1]),
+            *interface_peak(problem.meshes[1], state.pressure[1]),
         )
         return upper, SheetFigures(lower)
 

@@ -111,7 +111,7 @@ def values_at(mesh: Mesh, x: Array) -> Array:
     return np.asarray(before * padded[at] + after * padded[at + 1])
 
 
-def highest(mesh: Mesh, pressure: Array) -> tuple[float, float]:
+def interface_peak(mesh: Mesh, pressure: Array) -> tuple[float, float]:
     """Return the peak pressure on one interface, also between nodes, and its place.
 
     Within a zone pressures and places are cubics in the node number (`Subdivision`). A parabola

@@ -104,7 +104,7 @@ def equations(problem: PlateProblem) -> Array:
     whole[a:b, end], whole[a:b, end + 3], whole[a:b, end + 4] = -1.0, -1.0, -x_u
     whole[c:d, end + 3], whole[c:d, end + 4] = 1.0, x_l
     whole[b:c, end + 1], whole[d:end, end + 2] = problem.meshes[0].dx, problem.meshes[1].dx
-    whole[end + 2, end + 4] = -problem.plate.righting
+    whole[end + 2, end + 4] = -problem.plate.righting_moment
     if not isinstance(problem.nip.normal, LineLoad):
         whole[end, :end], whole[end, end] = 0.0, 1.0
     if isinstance(problem.nip.tangential, Creepage):

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.local_deformation import sheared, squeezed
+from rollnip.sheet.local_stretch import LONG_WAVES, warped
 from rollnip.sheet.plate.bending import Plate, exponential_weights
-from rollnip.sheet.squeeze import sheared, squeezed
-from rollnip.sheet.warp import LONG_WAVES, warped
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -117,7 +117,7 @@ class PiecewiseLoads:
             slope, bend = -yielding * moments_about(x, ahead, 2), yielding * distances
             if self.plate.tension > 0.0:
                 places, forces = self._points
-                less = self.plate.straightened(x[:, None] - places)
+                less = self.plate.reduction_by_tension(x[:, None] - places)
                 height, slope, bend = (
                     out - one @ forces for out, one in zip((height, slope, bend), less, strict=True)
                 )
@@ -172,7 +172,7 @@ class PiecewiseLoads:
         return sheared(self.sheet, x, self.nodes, self.lines[1:-1], far)
 
     def warped(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
-        """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.warp`.
+        """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.local_stretch`.
 
         g t is the stretch of the face under pressures t, without bending; ``tail_moments``:
         `tail_moments_at` of the places; ``far``: see `squeezed`.

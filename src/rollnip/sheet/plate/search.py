@@ -23,7 +23,7 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.boundary_layers import sheet_layer, squeeze_layer, unlike_layer
+from rollnip.sheet.boundary_layers import mismatch_layer, squeeze_layer, tension_layer
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import END_TOLERANCE
 from rollnip.sheet.membrane.search import SHORTEST_LAYER
@@ -46,7 +46,7 @@ from rollnip.sheet.plate.lagged_terms import (
 from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.plate.system import PlateProblem, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.secant import Moves
+from rollnip.sheet.secant import SecantSteps
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ class PlateSearch:
     nip: Nip
     model: Model
     kernels: PairKernels
-    moves: Moves[PlateZones] = field(default_factory=Moves)
+    secants: SecantSteps[PlateZones] = field(default_factory=SecantSteps)
 
     def start(self, half_width: float, count: int) -> PlateIterate:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
@@ -126,7 +126,7 @@ class PlateSearch:
         Slip that a single node calls for is tried; if it does not converge, the solution without it
         is returned. ``allowed``: allowed error of a zone end, over the width.
         """
-        self.moves.refined()
+        self.secants.begin_size()
         shapes = _Shapes()
         changes = rough_ones = 0
         known = min(before.misplacement, 1.0)
@@ -167,7 +167,9 @@ class PlateSearch:
                 proposed = zones.moved(problem, iterate.state, found)
                 if is_placed and proposed.distance(zones) <= allowed:
                     break
-            zones = proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
+            zones = (
+                proposed if misplacement > _NEARLY_PLACED else self.secants.next(zones, proposed)
+            )
         return _unplaced(zones, iterate, misplacement) if fair is None else fair
 
     def _on_mesh(
@@ -189,7 +191,7 @@ class PlateSearch:
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
+        return min(boundary_layer(self.nip), tension_layer(self.nip), squeeze_layer(self.nip))
 
     def _boundary_of(self, side: int) -> float:
         """Return the length of the shortest boundary layer on one interface [mm].
@@ -221,7 +223,7 @@ class PlateSearch:
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
             roller = (self.nip.upper, self.nip.lower)[number]
-            unlike = unlike_layer((roller,), self.model.tolerance) * side.width
+            unlike = mismatch_layer((roller,), self.model.tolerance) * side.width
             least = max(min(self._boundary_of(number), unlike), SHORTEST_LAYER * side.width)
             breaks = zones.breaks_of_mesh(number, self._thickness, peaks=roller.is_rigid)
             crowding = crowding_of(breaks, max(least, known * side.width))

@@ -62,7 +62,7 @@ class PlateSolution(SheetSolution):
         out = super()._claimed(figures, errors)
         if self.model.geometry not in FINITE:
             return out
-        sheet, (slope, curvature) = self._standing.problem.sheet, self._path
+        sheet, (slope, curvature) = self._iterate.problem.sheet, self._path
         strain = 0.5 * sheet.thickness * curvature * slope
         for name in ("tension_max", "tension_min"):
             out[name] = max(out[name], strain / sheet.stretch_by_tension)
@@ -75,7 +75,7 @@ class PlateSolution(SheetSolution):
         return out
 
     def _traction_slope(self) -> float:
-        iterate, tractions = self._standing, []
+        iterate, tractions = self._iterate, []
         for creepage in (0.0, 1.0):  # the tractions are linear in it
             nip = replace(self.nip, tangential=Creepage(creepage))
             system = FactorisedPlate.of(replace(iterate.problem, nip=nip), iterate.state.states)
@@ -86,7 +86,7 @@ class PlateSolution(SheetSolution):
     @cached_property
     def _path(self) -> tuple[float, float]:
         """Return the largest squared slope and curvature of the path in the contacts."""
-        iterate, slope, curvature = self._standing, 0.0, 0.0
+        iterate, slope, curvature = self._iterate, 0.0, 0.0
         rotations = iterate.problem.rotations(iterate.state, iterate.lagged.curved)
         for mesh, rotation in zip(iterate.problem.meshes, rotations, strict=True):
             x, turned = mesh.inner, rotation[:-1]
@@ -97,7 +97,7 @@ class PlateSolution(SheetSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        iterate = self._standing
+        iterate = self._iterate
         lower = self._lower_round
         return SheetProfiles(
             x,
@@ -114,7 +114,7 @@ class PlateSolution(SheetSolution):
         return cast(MembraneState, self.final.state)
 
     @property
-    def _standing(self) -> PlateIterate:
+    def _iterate(self) -> PlateIterate:
         return self._plate_refined.iterate
 
     @property
@@ -143,23 +143,23 @@ class PlateSolution(SheetSolution):
         return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
-        iterate = self._standing
+        iterate = self._iterate
         return iterate.problem.tension_at(iterate.state, x)
 
     @cached_property
     def _height(self) -> Array:
         """Height of the sheet's path at ``_points``, without its thickness [mm]."""
-        iterate = self._standing
+        iterate = self._iterate
         return iterate.problem.height_at(iterate.state, self._points[0], iterate.lagged.curved)
 
     @cached_property
     def _thinned_faces(self) -> Array:
-        iterate = self._standing
+        iterate = self._iterate
         return iterate.problem.thinned_at(iterate.state, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        iterate, four = self._standing, []
+        iterate, four = self._iterate, []
         x = np.unique(np.concatenate([fine_points(self.final), fine_points(self._lower_round)]))
         for side in (0, 1):
             one, mesh = self._of_side(side), iterate.problem.meshes[side]
@@ -173,7 +173,7 @@ class PlateSolution(SheetSolution):
         return x, Displacements(np.concatenate(four))
 
     def _sliding(self) -> tuple[Array, Array]:
-        iterate, state = self._standing, self._standing.state
+        iterate, state = self._iterate, self._iterate.state
         (mu_u, mu_l), (above, below) = iterate.problem.frictions, state.pressure
         slid = replace(state, shear=(mu_u * above, -mu_l * below), creepages=(0.0, 0.0))
         (_, upper), (_, lower) = iterate.problem.gaps_and_creeps(slid, iterate.lagged)
@@ -185,7 +185,7 @@ class PlateSolution(SheetSolution):
         if speed is None:
             return None
         x, u = self._points
-        iterate = self._standing
+        iterate = self._iterate
         dx, problem, state = np.diff(x), iterate.problem, iterate.state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)

@@ -29,7 +29,7 @@ from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.refine import Refined, refine
-from rollnip.sheet.status import with_errors_said
+from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
 
 _HARDLY = 0.01  # residual of the conditions that moving zone ends alone may cause
@@ -78,13 +78,13 @@ def solve_plate(
     return found if asked or found.converged else None
 
 
-def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
+def membrane_limit(nip: Nip, model: Model, cache: KernelCache) -> float:
     """Return the spreading length up to which a sheet is a membrane by default [mm]."""
     half_width = half_width_guess(nip, pair_kernels(nip, model.geometry, cache))
     return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
 
-def _rests(refined: Refined[PlateIterate] | None) -> bool:
+def _is_settled(refined: Refined[PlateIterate] | None) -> bool:
     return refined is not None and refined.iterate.settled
 
 
@@ -100,11 +100,11 @@ def _refined(
     now: Model | None = model
     while now is not None:
         tried.append((now, *_solve_in_geometry(nip, now, cache)))
-        if _rests(tried[-1][2]):
+        if _is_settled(tried[-1][2]):
             break
         simpler = SIMPLER.get(now.geometry)
         now = None if simpler is None else replace(now, geometry=simpler)
-    resting = [one for one in tried if _rests(one[2])]
+    resting = [one for one in tried if _is_settled(one[2])]
     model, kernels, refined = (resting or [one for one in tried if one[2]] or tried)[0]
     left = [one.geometry for one, _, _ in tried[: [one for one, _, _ in tried].index(model)]]
     return model, kernels, refined, solved_instead(left, model.geometry)
@@ -163,7 +163,7 @@ def _solution(
         max_surface_strain=strains.surface,
         refined=plain,
     )
-    return with_errors_said(solution)
+    return with_errors_in_status(solution)
 
 
 def _verdict(

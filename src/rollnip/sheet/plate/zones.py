@@ -87,7 +87,7 @@ class PlateZones(SideZones):
         return self.upper.states_on(x[0]), self.lower.states_on(x[1])
 
     def moved(
-        self, problem: PlateProblem, state: PlateState, called: PlateZones | None = None
+        self, problem: PlateProblem, state: PlateState, requested: PlateZones | None = None
     ) -> PlateZones:
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
@@ -97,15 +97,15 @@ class PlateZones(SideZones):
         Parameters
         ----------
         problem, state : a solution with nodes at the zone ends.
-        called : like zones, with states that meet all conditions on these meshes. They place a
+        requested : like zones, with states that meet all conditions on these meshes. They place a
             transition where the nearest shears do not, because all of them exceed their bounds.
         """
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
             proposed = side.moved(x, state.side(number), friction).breaks
-            if called is not None:
-                proposed = np.where(np.isfinite(proposed), proposed, called.sides[number].breaks)
+            if requested is not None:
+                proposed = np.where(np.isfinite(proposed), proposed, requested.sides[number].breaks)
             trailing, leading = side.edges
             most = LONGEST_MOVE * side.width
             first, last = float(proposed[0]), float(proposed[-1])

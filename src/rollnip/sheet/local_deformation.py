@@ -13,9 +13,9 @@ alone would make the pressure rise in proportion to the distance from the edge o
 a length h E_rubber/E_z far below the thickness, where they no longer apply.
 
 In space, f is 1/h times a function of x/h. The double integral of that kernel is |x|/2 plus h times
-the function `_spread` of t = |x|/h, which is a sum over the roots of sinh y = -y in the first
-quadrant. Near t = 0 all roots would be needed. There f is 4/y, except for terms that fall as
-exp(-y), so that `_spread` is
+the function `_kernel_integral` of t = |x|/h, which is a sum over the roots of sinh y = -y in the
+first quadrant. Near t = 0 all roots would be needed. There f is 4/y, except for terms that fall as
+exp(-y), so that `_kernel_integral` is
 
     (3 t^2 - 2 t^2 log t)/pi - t/2
 
@@ -24,8 +24,8 @@ plus a power series in t^2.
 Pressures that differ between the two faces also bend the layer: half of their difference moves both
 faces in the same direction, with the compliance (4/y) (cosh y + 1)/(sinh y - y) times c. Its first
 two terms, 48/y^4 + 9.6/y^2, are those of a plate. The rest is local as well: 81/175 for long waves,
-4/y for short ones. Its `_spread` is a sum over the roots of sinh y = y. Near t = 0 its linear term
-has the slope 81/350, and removing the two plate terms adds 0.8 t^3 - 0.2 t^5.
+4/y for short ones. Its `_kernel_integral` is a sum over the roots of sinh y = y. Near t = 0 its
+linear term has the slope 81/350, and removing the two plate terms adds 0.8 t^3 - 0.2 t^5.
 
 Shears displace a face tangentially by h (1 - nu^2)/E times
 
@@ -50,7 +50,7 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-FAR = 9.0  # over the thickness: there `_spread` is 1e-17; it falls as exp(-4.2 distance)
+FAR = 9.0  # over the thickness: there `_kernel_integral` is 1e-17; it falls as exp(-4.2 distance)
 PLACES = 400  # number of places in the table, denser near 0
 _ROOTS = 1000
 _SUMMED = 0.01, 0.2  # over the thickness: roots suffice above the first, a series below the second
@@ -82,7 +82,7 @@ def squeezed(
         displacement of both faces under opposite pressures in excess of that of a plate.
     opposite : (m,) whether the latter counts with the opposite sign at a place; None: nowhere.
     """
-    made = _moved(sheet.thickness, x, nodes, tractions, (_PRESSED, shares), opposite)
+    made = _local_response(sheet.thickness, x, nodes, tractions, (_PRESSED, shares), opposite)
     return np.asarray(sheet.squeeze * made)
 
 
@@ -99,12 +99,12 @@ def sheared(
     sheet, x, nodes, tractions : see `squeezed`; shears on the roller at one face.
     opposite : (m,) whether a place is on the other face.
     """
-    made = _moved(sheet.thickness, x, nodes, tractions, (_SHEARED, (0.5, 0.5)), opposite)
+    made = _local_response(sheet.thickness, x, nodes, tractions, (_SHEARED, (0.5, 0.5)), opposite)
     signs = np.where(opposite, -1.0, 1.0)[:, None]
     return np.asarray(sheet.sheared * signs * made)
 
 
-def _moved(
+def _local_response(
     thickness: float,
     x: Array,
     nodes: Array,
@@ -116,7 +116,7 @@ def _moved(
     long, shares = kind
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
-    made = _straight(x, nodes, padded)
+    made = _piecewise_linear(x, nodes, padded)
     signs = np.ones(x.size) if opposite is None else np.where(opposite, -1.0, 1.0)
     made *= (shares[0] * long[0] + long[1] * shares[1] * signs)[:, None]
     cubic = _table(shares, long)
@@ -127,11 +127,11 @@ def _moved(
     slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
     np.subtract(padded[1:], padded[:-1], out=slopes[1:-1])
     slopes[1:-1] *= (thickness / np.diff(nodes))[:, None]
-    add_spread(made, thickness, (x, nodes), slopes[1:] - slopes[:-1], (cubic, starts))
+    add_local_response(made, thickness, (x, nodes), slopes[1:] - slopes[:-1], (cubic, starts))
     return made
 
 
-def add_spread(
+def add_local_response(
     made: Array,
     thickness: float,
     places: tuple[Array, Array],
@@ -151,7 +151,7 @@ def add_spread(
     thickness : of the sheet [mm].
     places : (m,) places and (N + 1,) nodes [mm].
     turns : (N + 1, s) changes of slope at the nodes.
-    table : cubic pieces, and the first piece for each place; see `_spread`.
+    table : cubic pieces, and the first piece for each place; see `_kernel_integral`.
     is_odd : whether the kernel is odd: negative ahead of its node, positive behind it.
     """
     (x, nodes), (cubic, starts), far = places, table, FAR * thickness
@@ -163,13 +163,13 @@ def add_spread(
         if near.size and sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
             away = (x[near, None] - ends) / thickness
-            spread = _spread(np.abs(away), cubic, starts[near, None])
+            spread = _kernel_integral(np.abs(away), cubic, starts[near, None])
             if is_odd:
                 spread *= -np.sign(away)
             made[near, columns] += spread @ turns[some, columns]
 
 
-def _straight(x: Array, nodes: Array, values: Array) -> Array:
+def _piecewise_linear(x: Array, nodes: Array, values: Array) -> Array:
     """Return the values at ``x`` of a piecewise-linear function of the nodes, 0 outside."""
     at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     share = (x - nodes[at]) / (nodes[at + 1] - nodes[at])
@@ -179,7 +179,7 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
     return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
 
 
-def _spread(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
+def _kernel_integral(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
     """Return the double integral of the kernel less half of the distance, over h.
 
     Parameters
@@ -208,28 +208,28 @@ def _table(shares: _Shares, long: _Shares) -> Array:
 
     place = np.linspace(0.0, 1.0, PLACES)
     values = sum(
-        share * _alone(sign, long, FAR * place**3)
+        share * _mode_integral(sign, long, FAR * place**3)
         for share, sign in zip(shares, (1.0, -1.0), strict=True)
         if share
     )
     return np.asarray(CubicSpline(np.arange(PLACES), values).c)
 
 
-def _alone(sign: float, long: _Shares, away: Array) -> Array:
-    """Return `_spread` of one mode at distances over h; ``sign``: 1 for equal, -1 for opposite."""
+def _mode_integral(sign: float, long: _Shares, away: Array) -> Array:
+    """Return the kernel integral of one mode; ``sign``: 1 for equal, -1 for opposite loads."""
     first, last = _SUMMED
     places = np.sqrt(np.linspace(first**2, last**2, _OF_SERIES))
-    smooth = _summed(sign, long, places) - _close(sign, long, places)
+    smooth = _root_sum(sign, long, places) - _near_part(sign, long, places)
     series = np.polynomial.Polynomial.fit(places**2, smooth, _OF_SERIES - 1)
     return np.where(
         away < first,
-        _close(sign, long, away) + series(np.minimum(away, first) ** 2),
-        _summed(sign, long, np.maximum(away, first)),
+        _near_part(sign, long, away) + series(np.minimum(away, first) ** 2),
+        _root_sum(sign, long, np.maximum(away, first)),
     )
 
 
-def _close(sign: float, long: _Shares, away: Array) -> Array:
-    """Return the part of `_spread` that is not a power series in the square of the distance."""
+def _near_part(sign: float, long: _Shares, away: Array) -> Array:
+    """Return the part of the kernel integral that is no power series in the squared distance."""
     logs = np.log(np.maximum(away, np.finfo(float).tiny))
     root, line = (3.0 - 2.0 * logs) * away**2 / pi, 0.5 * long[sign < 0.0] * away
     if long == _SHEARED:
@@ -239,7 +239,7 @@ def _close(sign: float, long: _Shares, away: Array) -> Array:
     return np.asarray(root - line + 0.8 * away**3 - 0.2 * away**5)
 
 
-def _summed(sign: float, long: _Shares, away: Array) -> Array:
+def _root_sum(sign: float, long: _Shares, away: Array) -> Array:
     """Return the sum over the roots of sinh y + sign y = 0 at distances over h."""
     root = roots(sign)
     cosh = np.cosh(root)

@@ -24,7 +24,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.sheet.squeeze import FAR, PLACES, add_spread, roots
+from rollnip.sheet.local_deformation import FAR, PLACES, add_local_response, roots
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[
     made = 0.5 * (_STEPS[0] + signs * _STEPS[1])[:, None] * here
     turns, cubic = np.diff(slopes, axis=0), np.concatenate([_table(1.0), _table(-1.0)], axis=1)
     starts = np.where(far, PLACES - 1, 0)
-    add_spread(made, thickness, (x, nodes), turns, (cubic, starts), is_odd=True)
+    add_local_response(made, thickness, (x, nodes), turns, (cubic, starts), is_odd=True)
     return np.asarray(thickness**2 * made)
 
 
@@ -63,11 +63,11 @@ def _table(sign: float) -> Array:
     from scipy.interpolate import CubicSpline  # loads more than 200 modules
 
     away = FAR * np.linspace(0.0, 1.0, PLACES) ** 3
-    values = 0.5 * (_spread(1.0, away) + sign * _spread(-1.0, away))
+    values = 0.5 * (_root_sum(1.0, away) + sign * _root_sum(-1.0, away))
     return np.asarray(CubicSpline(np.arange(PLACES), values).c)
 
 
-def _spread(sign: float, away: Array) -> Array:
+def _root_sum(sign: float, away: Array) -> Array:
     """Return the sum over the roots of sinh y + sign y = 0, at distances over h."""
     root = roots(sign)
     parts = sign * 2.0 / (root**2 * (np.cosh(root) + sign))

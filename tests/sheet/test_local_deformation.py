@@ -9,8 +9,8 @@ from sheet_nips import nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.squeeze import _SHEARED, sheared, squeezed
-from rollnip.sheet.warp import LONG_WAVES, warped
+from rollnip.sheet.local_deformation import _SHEARED, sheared, squeezed
+from rollnip.sheet.local_stretch import LONG_WAVES, warped
 
 LAYER = rn.Sheet(thickness=0.2, modulus=5.0, poisson=0.3, modulus_thickness=3.0)
 

@@ -9,8 +9,8 @@ from sheet_nips import nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.local_deformation import _SHEARED, sheared, squeezed
-from rollnip.sheet.local_stretch import LONG_WAVES, warped
+from rollnip.sheet.local_deformation import _SHEARED, face_shift, thickness_loss
+from rollnip.sheet.local_stretch import LONG_WAVES, stretch_integral
 
 LAYER = rn.Sheet(thickness=0.2, modulus=5.0, poisson=0.3, modulus_thickness=3.0)
 
@@ -32,7 +32,7 @@ def _by_waves(length, x):
 def test_a_hat_of_pressure_is_that_of_its_waves(length):
     x = length * np.array([0.0, 0.5, 1.0, 2.5])
     nodes = np.array([-length, 0.0, length])
-    found = squeezed(LAYER, x, nodes, np.ones((1, 1)))[:, 0]
+    found = thickness_loss(LAYER, x, nodes, np.ones((1, 1)))[:, 0]
     wanted = [_by_waves(length, place) for place in x]
     # beyond 600/length the waves add at most int 4/(y k^2) dk, 1e-5 of the peak and less
     assert found == pytest.approx(wanted, abs=2e-5 * LAYER.squeeze)
@@ -40,7 +40,7 @@ def test_a_hat_of_pressure_is_that_of_its_waves(length):
 
 def test_an_even_pressure_is_that_of_springs():
     x, nodes = np.array([0.0, 3.0]), np.linspace(-50.0, 50.0, 11)
-    found = squeezed(LAYER, x, nodes, np.ones((9, 1)))[:, 0]
+    found = thickness_loss(LAYER, x, nodes, np.ones((9, 1)))[:, 0]
     assert found == pytest.approx([LAYER.squeeze] * 2, rel=1e-12)
 
 
@@ -77,7 +77,7 @@ def test_over_lengths_far_below_its_thickness_a_face_yields_as_a_half_space(alik
     for length in (3e-4, 1e-4):
         half = length * LAYER.thickness
         x, nodes = np.array([0.0, 10.0 * half]), np.array([-half, 0.0, half])
-        made = squeezed(LAYER, x, nodes, np.ones((1, 1)), shares)[:, 0]
+        made = thickness_loss(LAYER, x, nodes, np.ones((1, 1)), shares)[:, 0]
         depths.append((made[0] - made[1]) / half)
     # what a layer bends besides, and the table of 400 places, leave 2e-3
     assert depths[1] == pytest.approx(depths[0], rel=5e-3)
@@ -106,7 +106,7 @@ def test_shears_move_faces_as_those_of_an_elastic_layer(far):
 
     hat, x = 0.15, np.array([0.0, 0.07, 0.15, 0.4])
     nodes, faces = np.array([-hat, 0.0, hat]), np.full(x.size, far)
-    found = sheared(LAYER, x, nodes, np.ones((1, 1)), faces)[:, 0]
+    found = face_shift(LAYER, x, nodes, np.ones((1, 1)), faces)[:, 0]
     wanted = LAYER.sheared * _by_all_waves(share, x, hat, odd=False)
     # beyond k = 800/mm the waves add at most int 4/(pi h l k^3) dk, 3.3e-5
     assert found == pytest.approx(wanted, abs=4e-5 * LAYER.sheared)
@@ -123,7 +123,7 @@ def test_pressures_stretch_faces_as_those_of_an_elastic_layer(far):
     hat, x = 0.15, np.array([0.02, 0.07, 0.15, 0.4])
     nodes, faces = np.array([-hat, 0.0, hat]), np.full(x.size, far)
     lines = np.array([[0.0], [1.0], [0.0]])
-    found = warped(LAYER.thickness, x, nodes, lines, faces)[:, 0]
+    found = stretch_integral(LAYER.thickness, x, nodes, lines, faces)[:, 0]
     long = 0.5 * (LONG_WAVES[0] + (-1.0 if far else 1.0) * LONG_WAVES[1])
     behind = np.where(x < hat, 0.5 * hat * (1.0 - np.maximum(1.0 - x / hat, 0.0) ** 2), 0.5 * hat)
     wanted = long * behind - _by_all_waves(share, x, hat, odd=True)

@@ -13,7 +13,7 @@ from rollnip.io import base_tree, case_python, case_toml, parse_case
 from rollnip.sheet.checks import sheet_verdict
 from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.membrane.formulation import MembraneFormulation
-from rollnip.sheet.refine import with_errors_of_powers
+from rollnip.sheet.refine import with_power_errors
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
 
@@ -140,11 +140,11 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     iterate = refined.iterate
     ahead = replace(iterate.state, creepage=-iterate.state.creepage - 0.1)
     kind = MembraneFormulation(solution.nip)
-    turned = with_errors_of_powers(
+    turned = with_power_errors(
         kind, replace(refined, iterate=replace(iterate, state=ahead)), "linear"
     ).errors
     other = replace(iterate.state, creepage=-iterate.state.creepage + 0.1)
-    back = with_errors_of_powers(
+    back = with_power_errors(
         kind, replace(refined, iterate=replace(iterate, state=other)), "linear"
     ).errors
     assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed

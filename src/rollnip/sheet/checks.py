@@ -145,13 +145,15 @@ def creepage_errors(nip: Nip, refined: Refined[AnyIterate]) -> tuple[float, floa
     return upper, lower
 
 
-def solved_instead(left: Sequence[Geometry], geometry: Geometry) -> tuple[Reservation, ...]:
+def simpler_geometry_reservations(
+    left: Sequence[Geometry], geometry: Geometry
+) -> tuple[Reservation, ...]:
     """Return reservations that name geometries without a solution and the one solved instead."""
     causes = [(one, f"its zones or its {BEYOND[one]} did not settle") for one in left]
     return instead_of(causes, geometry)
 
 
-def pushed(figures: SheetFigures) -> tuple[Reservation, ...]:
+def compression_reservations(figures: SheetFigures) -> tuple[Reservation, ...]:
     """Return a reservation where the sheet is under compression in the nip."""
     if not figures.tension_min < -SLACK * figures.load:
         return ()
@@ -165,7 +167,7 @@ def pushed(figures: SheetFigures) -> tuple[Reservation, ...]:
     )
 
 
-def tension_of_curved(nip: Nip, model: Model) -> tuple[Reservation, ...]:
+def curved_tension_reservations(nip: Nip, model: Model) -> tuple[Reservation, ...]:
     """Return a reservation on the tension in geometry "curved" where a covering is thick."""
     rollers = nip.upper, nip.lower
     ratio = max(one.coating_thickness / one.radius for one in rollers)

@@ -79,7 +79,7 @@ def estimated_errors(
     return tuple(out)
 
 
-def claimed_of_powers(
+def raised_by_power_errors(
     errors: SheetFigures, works: Sequence[tuple[float, float]], off: Array
 ) -> SheetFigures:
     """Return errors that are at least the reversed slip work and the mismatch of the torques.

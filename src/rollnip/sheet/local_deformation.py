@@ -61,7 +61,7 @@ _PRESSED, _SHEARED = (1.0, 81.0 / 175.0), (1.0 / 3.0, 1.0 / 5.0)
 _Shares = tuple[float, float]
 
 
-def squeezed(
+def thickness_loss(
     sheet: Sheet,
     x: Array,
     nodes: Array,
@@ -86,7 +86,7 @@ def squeezed(
     return np.asarray(sheet.squeeze * made)
 
 
-def sheared(
+def face_shift(
     sheet: Sheet, x: Array, nodes: Array, tractions: Array, opposite: NDArray[np.bool_]
 ) -> Array:
     """Return the tangential displacement of the sheet's faces due to shears, (m, s) [mm].
@@ -96,7 +96,7 @@ def sheared(
 
     Parameters
     ----------
-    sheet, x, nodes, tractions : see `squeezed`; shears on the roller at one face.
+    sheet, x, nodes, tractions : see `thickness_loss`; shears on the roller at one face.
     opposite : (m,) whether a place is on the other face.
     """
     made = _local_response(sheet.thickness, x, nodes, tractions, (_SHEARED, (0.5, 0.5)), opposite)

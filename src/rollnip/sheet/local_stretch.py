@@ -32,7 +32,9 @@ LONG_WAVES = (0.0, 0.4)  # long-wave limits for equal and for opposite pressures
 _STEPS = (1.0 / 12.0, 11.0 / 700.0)  # coefficients of y^2 in their series
 
 
-def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[np.bool_]) -> Array:
+def stretch_integral(
+    thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[np.bool_]
+) -> Array:
     """Return the integral of the local stretch from each place to infinity, (m, s) [mm MPa].
 
     It is divided by (1 - nu^2)/E and excludes the long-wave part, which is `LONG_WAVES` times the

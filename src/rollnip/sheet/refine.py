@@ -11,7 +11,7 @@ import numpy as np
 from rollnip.model import Geometry, Model
 from rollnip.rolling import PairKernels
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
+from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
 from rollnip.sheet.formulation import (
     END_TOLERANCE,
@@ -117,7 +117,7 @@ def refine(
         errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
         excess = _excess(formulation, model, here, errors)
         if iterate.settled and history and excess > 1.0:
-            history = _with_zones_of(formulation, model, search, iterate, history, last_count)
+            history = _with_same_zones(formulation, model, search, iterate, history, last_count)
             errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
             excess = _excess(formulation, model, here, errors)
         latest = Refined(iterate, here.figures, errors, violation(iterate), round(count))
@@ -125,7 +125,7 @@ def refine(
             history.append(here)
             best, failures, last_count = latest, 0, round(count)
             if excess <= 1.0 and latest.residual <= model.tolerance:
-                best = _with_overlap(formulation, latest, kernels, model.geometry)
+                best = _with_outside_check(formulation, latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
                     return best
         else:
@@ -133,7 +133,7 @@ def refine(
         count = _next_count(count, excess)
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return _with_overlap(formulation, best, kernels, model.geometry)
+    return _with_outside_check(formulation, best, kernels, model.geometry)
 
 
 def initial_elements(
@@ -168,7 +168,7 @@ def _excess(
     return most / model.tolerance
 
 
-def _with_zones_of(
+def _with_same_zones(
     formulation: Formulation[IterateT],
     model: Model,
     search: ZoneSearch[IterateT],
@@ -210,7 +210,7 @@ def _next_count(count: float, excess: float) -> float:
     return min(count * growth, _MOST_ELEMENTS) if _LEAST_GROWTH * count < _MOST_ELEMENTS else inf
 
 
-def _with_overlap(
+def _with_outside_check(
     formulation: Formulation[IterateT],
     refined: Refined[IterateT],
     kernels: PairKernels,
@@ -218,10 +218,10 @@ def _with_overlap(
 ) -> Refined[IterateT]:
     """Return a solution whose residual and errors include the check outside the contact."""
     left = max(refined.residual, formulation.overlap(refined.iterate, kernels, geometry))
-    return with_errors_of_powers(formulation, replace(refined, residual=left), geometry)
+    return with_power_errors(formulation, replace(refined, residual=left), geometry)
 
 
-def with_errors_of_powers(
+def with_power_errors(
     formulation: Formulation[IterateT], refined: Refined[IterateT], geometry: Geometry
 ) -> Refined[IterateT]:
     """Return a solution whose errors include reversed slip and the mismatch of the torques.
@@ -234,7 +234,7 @@ def with_errors_of_powers(
     left = np.zeros(2)
     if geometry == "finite":
         left = torque_mismatch(iterate, refined.figures.powers)
-    errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_by_side)
+    errors = tuple(raised_by_power_errors(one, works, left) for one in refined.errors_by_side)
     return replace(refined, errors_by_side=errors)
 
 
@@ -252,4 +252,4 @@ def on_last_mesh(
     left = max(left, violation(iterate), formulation.overlap(iterate, kernels, "finite"))
     figures = formulation.figures(iterate, "finite")
     found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
-    return with_errors_of_powers(formulation, found, "finite")
+    return with_power_errors(formulation, found, "finite")

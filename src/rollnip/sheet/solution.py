@@ -26,7 +26,7 @@ from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
 from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
-from rollnip.sheet.local_deformation import squeezed
+from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.formulation import traction_slope
 from rollnip.sheet.membrane.search import MembraneIterate
 from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
@@ -345,7 +345,7 @@ class SheetSolution(SmoothSolution):
         sheet = self.nip.sheet
         assert sheet is not None
         acting = self.refined.iterate.problem.mesh.acting(self._state.pressure)
-        thinner = squeezed(sheet, x, self.final.nodes, acting[:, None])[:, 0]
+        thinner = thickness_loss(sheet, x, self.final.nodes, acting[:, None])[:, 0]
         return thinner + sheet.stretch_by_pressure * self._tension(x)
 
     @cached_property

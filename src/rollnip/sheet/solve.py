@@ -18,14 +18,14 @@ from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, 
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.checks import (
+    compression_reservations,
+    curved_tension_reservations,
     half_width_with_sheet,
     may_slide_at_any_speed,
-    pushed,
     require_grip,
     require_torque,
     sheet_verdict,
-    solved_instead,
-    tension_of_curved,
+    simpler_geometry_reservations,
 )
 from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.membrane.formulation import MembraneFormulation
@@ -97,7 +97,7 @@ def _solve_as_membrane(
     solution does not count as verified.
     """
     version, simpler = record
-    model, kernels, refined, left = _refined(nip, model, cache)
+    model, kernels, refined, left = _solve_with_fallback(nip, model, cache)
     left = simpler + left
     require_grip(nip, refined)
     final = membrane_round(nip, refined)
@@ -113,7 +113,7 @@ def _solve_as_membrane(
         reservations=consistent(
             left
             + _reservations(nip, refined)
-            + tension_of_curved(nip, model)
+            + curved_tension_reservations(nip, model)
             + validity_reservations(nip, model, final, strains)
         ),
         solver=SolverInfo(
@@ -132,7 +132,7 @@ def _solve_as_membrane(
     return with_errors_in_status(solution)
 
 
-def _refined(
+def _solve_with_fallback(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[Model, PairKernels, Refined[MembraneIterate], tuple[Reservation, ...]]:
     """Return the solved model, influence functions, the solution, and reservations on the model.
@@ -144,7 +144,7 @@ def _refined(
         found = _solve_in_geometry(nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
         if found is not None and (simpler is None or found[1].iterate.settled):
-            return model, *found, solved_instead(left, model.geometry)
+            return model, *found, simpler_geometry_reservations(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
             raise ConvergenceError(_none_found(nip))
@@ -226,7 +226,7 @@ def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservat
     length = spreading_length(nip)
     share = length / refined.figures.nip_width
     if not share > STIFF:
-        return pushed(refined.figures)
+        return compression_reservations(refined.figures)
     assert nip.sheet is not None
     freely = Reservation(
         "bends_freely",
@@ -241,7 +241,7 @@ def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservat
         },
         excess=share / STIFF,
     )
-    return (*pushed(refined.figures), freely)
+    return (*compression_reservations(refined.figures), freely)
 
 
 def _how_far_off(share: float) -> str:

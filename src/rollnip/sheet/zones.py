@@ -62,7 +62,7 @@ class SideZones:
         return all(np.array_equal(one.states, two.states) for one, two in pairs)
 
 
-def held(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
+def within_zone_middles(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
     """Return proposed zone ends, each transition limited to between the middles of its zones."""
     out = breaks.copy()
     middles = 0.5 * (breaks[1:] + breaks[:-1])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.local_deformation import squeezed
+from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -140,7 +140,7 @@ def influence_matrix(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     assert fine.acting is not None
     gap, upper, lower = out
     np.add(zz_u[:-1], zz_l[:-1], out=gap[:, 0])
-    gap[:, 0] += squeezed(sheet, mesh.inner, fine.nodes, fine.acting[1:-1, 1:-1])
+    gap[:, 0] += thickness_loss(sheet, mesh.inner, fine.nodes, fine.acting[1:-1, 1:-1])
     np.multiply(by_pressure, at_nodes, out=gap[:, 2])
     np.negative(gap[:, 2], out=gap[:, 1])
     gap[:, 1] -= xz_u[:-1]

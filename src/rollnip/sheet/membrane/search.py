@@ -36,7 +36,7 @@ from rollnip.sheet.boundary_layers import mismatch_layer, squeeze_layer, tension
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import Iterate
-from rollnip.sheet.local_deformation import squeezed
+from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
     solve_complementarity,
@@ -332,7 +332,7 @@ def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) 
     gap = sum(surface_depths(x, nip, geometry, u)) - state.approach
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
     gap += problem.sheet.stretch_by_pressure * sides
-    gap += squeezed(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
+    gap += thickness_loss(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
     return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 

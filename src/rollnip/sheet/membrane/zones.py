@@ -15,7 +15,7 @@ from rollnip.sheet.zones import (
     LONGEST_MOVE,
     OF_TRANSITIONS,
     SideZones,
-    held,
+    within_zone_middles,
     without_slivers_in,
 )
 
@@ -118,7 +118,9 @@ class MembraneZones(SideZones):
                 clear &= ~requested.creeps_against_shear(number)
             if not clear.all():
                 inner[~clear] = requested.sides[number].breaks[1:-1][~clear]
-            sides.append(Layout(held(side.breaks, wanted.breaks, edges), side.states))
+            sides.append(
+                Layout(within_zone_middles(side.breaks, wanted.breaks, edges), side.states)
+            )
         return MembraneZones(sides[0], sides[1])
 
     def _edges_towards(self, proposed: Sequence[Layout]) -> tuple[float, float]:

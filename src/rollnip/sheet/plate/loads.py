@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.local_deformation import sheared, squeezed
-from rollnip.sheet.local_stretch import LONG_WAVES, warped
+from rollnip.sheet.local_deformation import face_shift, thickness_loss
+from rollnip.sheet.local_stretch import LONG_WAVES, stretch_integral
 from rollnip.sheet.plate.bending import Plate, exponential_weights
 from rollnip.sheets import Sheet
 
@@ -155,33 +155,33 @@ class PiecewiseLoads:
             out.append(outside * passed)
         return out[0], out[1]
 
-    def squeezed(self, x: Array, far: NDArray[np.bool_]) -> Array:
+    def face_indentation(self, x: Array, far: NDArray[np.bool_]) -> Array:
         """Return the displacement of a face towards the middle under pressures, (m, n) [mm/MPa].
 
         ``far``: where it is the face opposite to that under the pressures, otherwise that face
         itself.
         """
         nodes, lines = self.nodes, self.lines[1:-1]
-        return squeezed(self.sheet, x, nodes, lines, (0.25, 0.25), opposite=far)
+        return thickness_loss(self.sheet, x, nodes, lines, (0.25, 0.25), opposite=far)
 
-    def sheared(self, x: Array, far: NDArray[np.bool_]) -> Array:
+    def face_shift(self, x: Array, far: NDArray[np.bool_]) -> Array:
         """Return the tangential displacement of a face under shears, (m, n) [mm/MPa].
 
-        It excludes the displacement due to tension and bending. ``far``: see `squeezed`.
+        It excludes the displacement due to tension and bending. ``far``: see `face_indentation`.
         """
-        return sheared(self.sheet, x, self.nodes, self.lines[1:-1], far)
+        return face_shift(self.sheet, x, self.nodes, self.lines[1:-1], far)
 
-    def warped(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
+    def stretch_integral(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
         """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.local_stretch`.
 
         g t is the stretch of the face under pressures t, without bending; ``tail_moments``:
-        `tail_moments_at` of the places; ``far``: see `squeezed`.
+        `tail_moments_at` of the places; ``far``: see `face_indentation`.
         """
         sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
         signs = np.where(far, -1.0, 1.0)
         less = sheet.sheared / sheet.thickness
         long = alike - 0.5 * less * (LONG_WAVES[0] + signs * LONG_WAVES[1])
-        short = warped(sheet.thickness, x, self.nodes, self.lines, far)
+        short = stretch_integral(sheet.thickness, x, self.nodes, self.lines, far)
         return np.asarray(long[:, None] * tail_moments[0] - less * short)
 
     @property

@@ -35,7 +35,7 @@ def gaps_and_creeps_of(
     n, m = (mesh.inner.size for mesh in meshes)
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_upper = np.arange(x.size) <= n
-    by_shears = [_changes(one.sheared(x, is_upper == by)) for by, one in enumerate(loads)]
+    by_shears = [_changes(one.face_shift(x, is_upper == by)) for by, one in enumerate(loads)]
     above = np.diagonal(by_rollers[0][n:, n:]) + np.diagonal(by_shears[0][:n])
     below = np.diagonal(by_rollers[1][m:, m:]) + np.diagonal(by_shears[1][n + 1 :])
     own = np.concatenate([above, [-1.0], below])
@@ -72,7 +72,7 @@ def _by_sheet(
     by: int,
     own: Array,
 ) -> tuple[Array, Array]:
-    """Return gaps and creeps due to the sheet under tractions on one interface, without `sheared`.
+    """Return gaps and creeps due to the sheet, loaded on one interface, without `face_shift`.
 
     Parameters
     ----------
@@ -96,9 +96,11 @@ def _by_sheet(
     height, slope, bend = loads.bent(x, load_tails)
     out = np.empty((2, x.size - 1, 2, loads.lines.shape[1]))
     # y is driven by -p_u and +p_l; the upper gap contains -y, the lower one +y
-    out[0, :, 0] = signs * height[:-1] + loads.squeezed(x[:-1], is_far[:-1])
-    warped = loads.warped(x, is_far, load_tails)
-    tilted = warped if path_shears is loads else path_shears.warped(x, is_far, shear_tails)
+    out[0, :, 0] = signs * height[:-1] + loads.face_indentation(x[:-1], is_far[:-1])
+    warped = loads.stretch_integral(x, is_far, load_tails)
+    tilted = (
+        warped if path_shears is loads else path_shears.stretch_integral(x, is_far, shear_tails)
+    )
     out[0, :, 1] = half * here * slope[:-1] - there * tilted[:-1]
     out[1, :, 0] = here * _changes(warped)
     out[1, :, 0] -= there * half * _changes(slope)

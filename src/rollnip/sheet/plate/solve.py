@@ -17,12 +17,12 @@ from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.checks import (
+    compression_reservations,
+    curved_tension_reservations,
     half_width_with_sheet,
-    pushed,
     require_grip,
     sheet_verdict,
-    solved_instead,
-    tension_of_curved,
+    simpler_geometry_reservations,
 )
 from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.plate.formulation import PlateFormulation
@@ -62,7 +62,7 @@ def solve_plate(
     start, (version, said) = perf_counter(), record
     assert nip.sheet is not None
     asked = nip.sheet.bending is True
-    model, kernels, refined, left = _refined(nip, model, cache)
+    model, kernels, refined, left = _solve_with_fallback(nip, model, cache)
     said += left
     if refined is None:
         if asked:
@@ -88,7 +88,7 @@ def _is_settled(refined: Refined[PlateIterate] | None) -> bool:
     return refined is not None and refined.iterate.settled
 
 
-def _refined(
+def _solve_with_fallback(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[Model, PairKernels, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
     """Return the solved model, influence functions, the solution, and reservations on the model.
@@ -107,7 +107,7 @@ def _refined(
     resting = [one for one in tried if _is_settled(one[2])]
     model, kernels, refined = (resting or [one for one in tried if one[2]] or tried)[0]
     left = [one.geometry for one, _, _ in tried[: [one for one, _, _ in tried].index(model)]]
-    return model, kernels, refined, solved_instead(left, model.geometry)
+    return model, kernels, refined, simpler_geometry_reservations(left, model.geometry)
 
 
 def _solve_in_geometry(
@@ -141,7 +141,7 @@ def _solution(
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
-    said += pushed(refined.figures) + tension_of_curved(nip, model)
+    said += compression_reservations(refined.figures) + curved_tension_reservations(nip, model)
     said += validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(

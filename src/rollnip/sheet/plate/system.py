@@ -11,8 +11,9 @@ faces towards the middle, its tension N and its strain e,
     creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
 
 with e = a N + b (p_u + p_l)/2; bending stretches the faces by -+ h y''/2. The local deformation of
-an elastic layer is added to all of these (`PiecewiseLoads.sheared`, `PiecewiseLoads.warped`). The
-forces across the sheet are in equilibrium, and its tension balances the moment of the nip on it.
+an elastic layer is added to all of these (`PiecewiseLoads.face_shift`,
+`PiecewiseLoads.stretch_integral`). The forces across the sheet are in equilibrium, and its tension
+balances the moment of the nip on it.
 """
 
 from __future__ import annotations
@@ -270,8 +271,8 @@ class PlateProblem:
         for side, one in enumerate(self.loads):
             far = np.repeat(np.arange(2) != side, x.size)
             pulled = self.path_shears[side].of(state.shear[side])
-            warped = pulled.warped(both, far, pulled.tail_moments_at(both))
-            made = one.of(state.pressure[side]).squeezed(both, far) - SIGNS[side] * warped
+            warped = pulled.stretch_integral(both, far, pulled.tail_moments_at(both))
+            made = one.of(state.pressure[side]).face_indentation(both, far) - SIGNS[side] * warped
             out += made.reshape(2, x.size)
         return out
 

@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import LONGEST_MOVE, OF_TRANSITIONS, SideZones, held, without_slivers_in
+from rollnip.sheet.zones import (
+    LONGEST_MOVE,
+    OF_TRANSITIONS,
+    SideZones,
+    within_zone_middles,
+    without_slivers_in,
+)
 
 Array = NDArray[np.float64]
 
@@ -120,7 +126,7 @@ class PlateZones(SideZones):
                 float(np.clip(first, trailing - most, trailing + most)),
                 float(np.clip(last, leading - most, leading + most)),
             )
-            sides.append(Layout(held(side.breaks, proposed, edges), side.states))
+            sides.append(Layout(within_zone_middles(side.breaks, proposed, edges), side.states))
         return PlateZones(sides[0], sides[1])
 
     def without_slivers(self) -> PlateZones:

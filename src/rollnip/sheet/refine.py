@@ -7,9 +7,13 @@ from math import inf, sqrt
 from typing import Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
+from rollnip._results.records import SolverInfo
+from rollnip.contact import ContactProblem, ContactState
 from rollnip.model import Geometry, Model
-from rollnip.rolling import PairKernels
+from rollnip.rolling import PairKernels, Round
+from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
@@ -23,6 +27,8 @@ from rollnip.sheet.formulation import (
 )
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import slip_works, torque_mismatch
+
+Array = NDArray[np.float64]
 
 _GROWTH = 1.6  # largest growth of the number of elements from size to size
 _LEAST_GROWTH = 1.25
@@ -79,6 +85,46 @@ class Refined(Generic[T]):
     def lower_errors(self) -> SheetFigures:
         """Return their errors."""
         return self.errors_by_side[-1]
+
+    def upper_round(
+        self, problem: ContactProblem, state: ContactState, terms: tuple[Array, Array]
+    ) -> Round:
+        """Return the solution as the `Round` of a bare nip, with the upper interface's tractions.
+
+        Parameters
+        ----------
+        problem, state : what a bare nip on the mesh of the upper interface would have.
+        terms : lagged terms of the gap and of the creep of the upper interface, each (n,) [mm].
+        """
+        iterate, (clearance, offset) = self.iterate, terms
+        mesh = iterate.problem.meshes[0]
+        return Round(
+            mesh=mesh,
+            problem=problem,
+            state=state,
+            second=SecondOrder(
+                clearance, np.zeros(mesh.inner.size), offset, iterate.lagged.traction
+            ),
+            zones=iterate.zones.upper.zones,
+            figures=self.figures.watched,
+            error=self.errors.watched,
+            steps=iterate.steps,
+            settled=iterate.settled,
+            geometry_change=iterate.change,
+            residual=self.residual,
+            cut=self.cut,
+        )
+
+    def solver_info(self, seconds: float, version: str) -> SolverInfo:
+        """Return the record of how the solution was reached."""
+        return SolverInfo(
+            elements=int(max(mesh.nodes.size for mesh in self.iterate.problem.meshes) - 1),
+            iterations=self.iterate.steps,
+            residual=self.residual,
+            geometry_change=self.iterate.change,
+            seconds=seconds,
+            version=version,
+        )
 
 
 def refine(

@@ -8,30 +8,27 @@ from time import perf_counter
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
-from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling import PairKernels, Round
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.checks import (
     compression_reservations,
     curved_tension_reservations,
-    half_width_with_sheet,
     may_slide_at_any_speed,
     require_grip,
     require_torque,
     sheet_verdict,
     simpler_geometry_reservations,
 )
-from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
+from rollnip.sheet.one_geometry import solve_in_geometry
 from rollnip.sheet.plate.solve import membrane_limit, solve_plate
-from rollnip.sheet.refine import Refined, refine
+from rollnip.sheet.refine import Refined
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
@@ -116,14 +113,7 @@ def _solve_as_membrane(
             + curved_tension_reservations(nip, model)
             + validity_reservations(nip, model, final, strains)
         ),
-        solver=SolverInfo(
-            elements=int(refined.iterate.problem.mesh.nodes.size - 1),
-            iterations=refined.iterate.steps,
-            residual=refined.residual,
-            geometry_change=refined.iterate.change,
-            seconds=perf_counter() - start,
-            version=version,
-        ),
+        solver=refined.solver_info(perf_counter() - start, version),
         final=final,
         kernels=kernels,
         max_surface_strain=strains.surface,
@@ -141,10 +131,11 @@ def _solve_with_fallback(
     """
     left: list[Geometry] = []
     while True:
-        found = _solve_in_geometry(nip, model, cache)
+        kernels, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
         simpler = SIMPLER.get(model.geometry)
-        if found is not None and (simpler is None or found[1].iterate.settled):
-            return model, *found, simpler_geometry_reservations(left, model.geometry)
+        if refined is not None and (simpler is None or refined.iterate.settled):
+            reservations = simpler_geometry_reservations(left, model.geometry)
+            return model, kernels, refined, reservations
         if simpler is None:
             require_torque(nip, 1.0)
             raise ConvergenceError(_none_found(nip))
@@ -169,56 +160,22 @@ def _none_found(nip: Nip) -> str:
     return "No solution with this sheet was found; try a larger load or other tensions."
 
 
-def _solve_in_geometry(
-    nip: Nip, model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined[MembraneIterate]] | None:
-    """Return influence functions and the solution in one geometry; None where none exists."""
-    kernels = pair_kernels(nip, model.geometry, cache)
-    half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    half_width = half_width_with_sheet(nip, half_width)
-    if model.geometry == "finite":
-        return solve_by_iteration(MembraneFormulation(nip), model, kernels, half_width)
-    try:
-        return kernels, refine(MembraneFormulation(nip), model, kernels, half_width)
-    except np.linalg.LinAlgError:
-        return None
-
-
 def membrane_round(nip: Nip, refined: Refined[MembraneIterate]) -> Round:
     """Return a membrane solution as the `Round` of a bare nip, with the shear of the upper side."""
-    iterate, figures = refined.iterate, refined.figures
-    mesh, n = iterate.problem.mesh, iterate.problem.mesh.inner.size
+    iterate = refined.iterate
+    mesh, lagged = iterate.problem.mesh, iterate.lagged
     total = iterate.state.creepage + iterate.state.creepage_lower
     problem = ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + iterate.lagged.clearance,
+        clearance=0.5 * nip.curvature * mesh.inner**2 + lagged.clearance,
         influence=mesh.influence,
         creep_length=mesh.dx,
-        creep_offset=np.zeros(n),
+        creep_offset=np.zeros(mesh.inner.size),
         friction=nip.friction,
         control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
     )
-    return Round(
-        mesh=mesh,
-        problem=problem,
-        state=iterate.state,
-        second=SecondOrder(
-            iterate.lagged.clearance,
-            np.zeros(n),
-            iterate.lagged.offsets[0],
-            iterate.lagged.traction,
-        ),
-        zones=iterate.zones.upper.zones,
-        figures=figures.watched,
-        error=refined.errors.watched,
-        steps=iterate.steps,
-        settled=iterate.settled,
-        geometry_change=iterate.change,
-        residual=refined.residual,
-        cut=refined.cut,
-    )
+    return refined.upper_round(problem, iterate.state, (lagged.clearance, lagged.offsets[0]))
 
 
 def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:

@@ -223,26 +223,9 @@ def plate_round(refined: Refined[PlateIterate]) -> Round:
         shear_lower=shear_lower,
         creepage_lower=state.creepages[1],
     )
-    n = upper.inner.size
-    return Round(
-        mesh=upper,
-        problem=_as_problem(iterate, 0),
-        state=both,
-        second=SecondOrder(
-            iterate.lagged.clearance[0],
-            np.zeros(n),
-            iterate.lagged.offsets[0],
-            iterate.lagged.traction,
-        ),
-        zones=iterate.zones.upper.zones,
-        figures=refined.figures.watched,
-        error=refined.errors.watched,
-        steps=iterate.steps,
-        settled=iterate.settled,
-        geometry_change=iterate.change,
-        residual=refined.residual,
-        cut=refined.cut,
-    )
+    lagged = iterate.lagged
+    terms = lagged.clearance[0], lagged.offsets[0]
+    return refined.upper_round(_as_problem(iterate, 0), both, terms)
 
 
 def lower_round(refined: Refined[PlateIterate], upper: Round) -> Round:

@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 
 from rollnip._errors import ConvergenceError
-from rollnip._results.records import SolverInfo
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
+from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.checks import (
     compression_reservations,
@@ -24,11 +23,11 @@ from rollnip.sheet.checks import (
     sheet_verdict,
     simpler_geometry_reservations,
 )
-from rollnip.sheet.finite_strain import solve_by_iteration
+from rollnip.sheet.one_geometry import solve_in_geometry
 from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
-from rollnip.sheet.refine import Refined, refine
+from rollnip.sheet.refine import Refined
 from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
 
@@ -99,7 +98,7 @@ def _solve_with_fallback(
     tried: list[tuple[Model, PairKernels, Refined[PlateIterate] | None]] = []
     now: Model | None = model
     while now is not None:
-        tried.append((now, *_solve_in_geometry(nip, now, cache)))
+        tried.append((now, *solve_in_geometry(PlateFormulation(nip), now, cache)))
         if _is_settled(tried[-1][2]):
             break
         simpler = SIMPLER.get(now.geometry)
@@ -110,25 +109,6 @@ def _solve_with_fallback(
     return model, kernels, refined, simpler_geometry_reservations(left, model.geometry)
 
 
-def _solve_in_geometry(
-    nip: Nip, model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined[PlateIterate] | None]:
-    """Return influence functions and the solution in one geometry; None where none exists."""
-    kernels = pair_kernels(nip, model.geometry, cache)
-    half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    half_width = half_width_with_sheet(nip, half_width)
-    if model.geometry == "finite":
-        return solve_by_iteration(PlateFormulation(nip), model, kernels, half_width) or (
-            kernels,
-            None,
-        )
-    try:
-        return kernels, refine(PlateFormulation(nip), model, kernels, half_width)
-    except np.linalg.LinAlgError:
-        return kernels, None
-
-
 def _solution(
     nip: Nip,
     model: Model,
@@ -137,7 +117,7 @@ def _solution(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
-    final, iterate = plate_round(refined), refined.iterate
+    final = plate_round(refined)
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
@@ -150,14 +130,7 @@ def _solution(
         converged=converged,
         status=status,
         reservations=consistent(said),
-        solver=SolverInfo(
-            elements=int(max(mesh.nodes.size for mesh in iterate.problem.meshes) - 1),
-            iterations=iterate.steps,
-            residual=refined.residual,
-            geometry_change=iterate.change,
-            seconds=seconds,
-            version=version,
-        ),
+        solver=refined.solver_info(seconds, version),
         final=final,
         kernels=kernels,
         max_surface_strain=strains.surface,

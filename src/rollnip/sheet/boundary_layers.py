@@ -7,6 +7,15 @@ from math import inf, sqrt
 
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
+from rollnip.rolling.lengths import boundary_layer
+
+SHORTEST_LAYER = 1e-3
+"""Shortest boundary layer for which nodes crowd, over the width."""
+
+
+def shortest_layer(nip: Nip) -> float:
+    """Return the length of the shortest boundary layer at zone ends, with a sheet [mm]."""
+    return min(boundary_layer(nip), tension_layer(nip), squeeze_layer(nip))
 
 
 def tension_layer(nip: Nip) -> float:

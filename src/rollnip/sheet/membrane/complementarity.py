@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.friction import with_stick_between_slips
+from rollnip.sheet.complementarity import (
+    LEAST_PRESSURE,
+    indentation,
+    with_stick_between_slips,
+)
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
-
-_LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
 def solve_complementarity(
@@ -154,8 +156,5 @@ def _initial_pressure(
     x, n = problem.mesh.inner, problem.mesh.inner.size
     middle = 0.5 * (x[0] + x[-1])
     ellipse = np.sqrt(np.maximum(1.0 - ((x - middle) / half_width) ** 2, 0.0))
-    pressed = problem.matrix[:n, :n] @ ellipse
-    inside = np.flatnonzero(ellipse)
-    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
-    highest = depth / rise if rise > 0.0 else depth / float(np.abs(pressed).max())
-    return highest * np.maximum(ellipse, _LEAST), highest
+    highest = depth / indentation(problem.matrix[:n, :n] @ ellipse, ellipse)
+    return highest * np.maximum(ellipse, LEAST_PRESSURE), highest

@@ -14,11 +14,18 @@ from numpy.typing import NDArray
 from rollnip._largest import largest
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
-from rollnip.nip import Torque, Traction
+from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
+from rollnip.rolling.assemble import arc_ratio, mean_shear
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.lagged_terms import (
+    creep_in_stick,
+    has_no_terms,
+    initial_traction,
+    pressed_gap,
+    sheet_rate,
+    traction_for_torque,
+)
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
@@ -26,15 +33,8 @@ Array = NDArray[np.float64]
 
 def initial_terms(problem: MembraneProblem) -> MembraneTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
-    n, tangential = problem.mesh.inner.size, problem.nip.tangential
-    traction = tangential.traction if isinstance(tangential, Traction) else None
-    traction = 0.0 if isinstance(tangential, Torque) else traction
-    return MembraneTerms(np.zeros(n), np.zeros((2, n)), traction)
-
-
-def has_no_terms(problem: MembraneProblem, geometry: Geometry) -> bool:
-    """Return whether the problem is linear, without any term that depends on the solution."""
-    return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
+    n = problem.mesh.inner.size
+    return MembraneTerms(np.zeros(n), np.zeros((2, n)), initial_traction(problem.nip))
 
 
 def lagged_terms(
@@ -42,7 +42,7 @@ def lagged_terms(
 ) -> MembraneTerms:
     """Return the lagged terms that follow from a solution."""
     first = initial_terms(problem)
-    if has_no_terms(problem, geometry):
+    if has_no_terms(problem.nip, geometry):
         return first
     nip, mesh = problem.nip, problem.mesh
     flat = mesh.linear_displacements(state)
@@ -57,7 +57,8 @@ def lagged_terms(
         offsets = _offsets(problem, geometry, state, flat, u)
     traction = first.traction
     if isinstance(nip.tangential, Torque):
-        traction = _traction_for_torque(problem, geometry, state, u)
+        _, pull = pulls_of(problem, geometry, state, mesh.uncut(u))
+        traction = traction_for_torque(problem, geometry, state, pull)
     return MembraneTerms(clearance, offsets, traction, lean)
 
 
@@ -169,15 +170,3 @@ def pulls_of(
     lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, problem.nip, geometry, fine)
     upper, lower = (mean_shear(mesh, state.side(number)) for number in (0, 1))
     return float(lengths[0] @ upper), float(lengths[1] @ lower)
-
-
-def _traction_for_torque(
-    problem: MembraneProblem, geometry: Geometry, state: MembraneState, u: Displacements
-) -> float:
-    """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
-    nip, mesh = problem.nip, problem.mesh
-    assert isinstance(nip.tangential, Torque)
-    _, pull = pulls_of(problem, geometry, state, mesh.uncut(u))
-    lost = loss_inside("lower", nip, geometry, mesh, state.side(1))
-    wanted = nip.tangential.torque_lower * nip.lower.curvature
-    return lost - wanted - (pull - float(mesh.weights @ state.shear_lower))

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
 
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.lu import LUFactors
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
 Array = NDArray[np.float64]
@@ -22,8 +22,7 @@ class FactorisedMembrane:
 
     problem: MembraneProblem
     states: States
-    factors: Array
-    pivots: NDArray[np.intp]
+    factors: LUFactors
 
     @classmethod
     def of(cls, problem: MembraneProblem, states: States) -> FactorisedMembrane:
@@ -34,18 +33,12 @@ class FactorisedMembrane:
         numpy.linalg.LinAlgError
             where the states make the system singular.
         """
-        factors, pivots, info = lapack.dgetrf(_matrix(problem, states).T, overwrite_a=1)
-        if info != 0:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return cls(problem, states, factors, pivots)
+        return cls(problem, states, LUFactors.of(_matrix(problem, states)))
 
     def solved(self, lagged: MembraneTerms) -> MembraneState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
-        unknowns, info = lapack.dgetrs(
-            self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
-        )
-        assert info == 0
+        unknowns = self.factors.solve(_right_side(problem, states, lagged))
         contact, sticks = _unknown_indices(states)
         n, n_c = states.shape[1], contact.size
         pressure = np.zeros(n)

@@ -30,12 +30,12 @@ from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, surface_depths
 from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.boundary_layers import mismatch_layer, squeeze_layer, tension_layer
+from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import Iterate
+from rollnip.sheet.lagged_terms import has_no_terms, interpolated
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
@@ -44,7 +44,6 @@ from rollnip.sheet.membrane.complementarity import (
 )
 from rollnip.sheet.membrane.lagged_terms import (
     change_of_terms,
-    has_no_terms,
     initial_terms,
     lagged_terms,
 )
@@ -74,7 +73,6 @@ _WIDER = 1.5  # growth of the first mesh where the contact does not fit into it
 _MOST_REACHES = 4
 _MOST_ITERATIONS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
-SHORTEST_LAYER = 1e-3  # over the width: shortest boundary layer for which nodes crowd
 
 
 MembraneIterate = Iterate[MembraneZones, MembraneProblem, MembraneState, MembraneTerms]
@@ -100,7 +98,7 @@ class MembraneSearch:
             problem = self._problem(MembraneZones.sticking(reach), shape, None)
             lagged = initial_terms(problem)
             state, steps = solve_complementarity(problem, lagged, half_width), 0
-            if not has_no_terms(problem, "linear"):
+            if not has_no_terms(problem.nip, "linear"):
                 lagged, steps = lagged_terms(problem, "linear", state), state.steps
                 state = solve_complementarity(problem, lagged, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
@@ -181,7 +179,7 @@ class MembraneSearch:
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return min(boundary_layer(self.nip), tension_layer(self.nip), squeeze_layer(self.nip))
+        return shortest_layer(self.nip)
 
     def _problem(
         self,
@@ -234,7 +232,7 @@ class MembraneSearch:
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1
-            if has_no_terms(problem, self.model.geometry):
+            if has_no_terms(problem.nip, self.model.geometry):
                 break
             if misplacement[0] > _NEARLY_PLACED:
                 change = 1.0
@@ -339,7 +337,7 @@ def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) 
 def interpolated_terms(iterate: MembraneIterate, problem: MembraneProblem) -> MembraneTerms:
     """Return the lagged terms of a solution, interpolated to another mesh."""
     old, new, lagged = iterate.problem.mesh, problem.mesh, iterate.lagged
-    middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
-    offsets = [new.dx * np.interp(places, middles, row / old.dx) for row in lagged.offsets]
-    clearance = np.interp(new.inner, old.inner, lagged.clearance)
-    return replace(lagged, clearance=clearance, offsets=np.stack(offsets))
+    (clearance, upper), (_, lower) = (
+        interpolated(old, new, lagged.clearance, offset) for offset in lagged.offsets
+    )
+    return replace(lagged, clearance=clearance, offsets=np.stack([upper, lower]))

@@ -9,7 +9,11 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, interior_point
 from rollnip.nip import LineLoad
-from rollnip.sheet.friction import with_stick_between_slips
+from rollnip.sheet.complementarity import (
+    LEAST_PRESSURE,
+    indentation,
+    with_stick_between_slips,
+)
 from rollnip.sheet.plate.linear_system import EXTRA_UNKNOWNS, constant_terms, equations
 from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
@@ -18,7 +22,6 @@ Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]
 
 _ENOUGH = 1e-4  # residual at which the states are accepted although it shrinks no further
-_LEAST = 0.15  # least initial pressure of a node, over the highest one
 
 
 def solve_complementarity(
@@ -120,19 +123,12 @@ def _initial_pressure(problem: PlateProblem, edges: Edges, depth: float) -> tupl
         force = normal.load
     else:
         rises = [
-            _rise(mesh.per_traction[3 * side + 1][:-1] @ one, one)
+            indentation(mesh.per_traction[3 * side + 1][:-1] @ one, one)
             for side, (mesh, one) in enumerate(zip(problem.meshes, (upper, lower), strict=True))
         ]
         force = depth / sum(rises)
-    first, second = (force * np.maximum(one, _LEAST * one.max()) for one in (upper, lower))
+    first, second = (force * np.maximum(one, LEAST_PRESSURE * one.max()) for one in (upper, lower))
     return (first, second), force
-
-
-def _rise(pressed: Array, pressure: Array) -> float:
-    """Return how much deeper a surface is indented inside the contact than at its edges [mm]."""
-    inside = np.flatnonzero(pressure)
-    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
-    return rise if rise > 0.0 else float(np.abs(pressed).max())
 
 
 def _ellipse(x: Array, trailing: float, leading: float) -> Array:

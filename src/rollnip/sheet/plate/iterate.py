@@ -16,6 +16,7 @@ from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
 from rollnip.sheet.iterate import Iterate
+from rollnip.sheet.lagged_terms import interpolated
 from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
 from rollnip.sheet.plate.interface import SIGNS
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
@@ -112,16 +113,15 @@ def _displacements_at(
 
 def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:
     """Return the lagged terms of a solution, interpolated to other meshes."""
-    clearance, offsets, lagged = [], [], iterate.lagged
-    for side, (old, new) in enumerate(zip(iterate.problem.meshes, problem.meshes, strict=True)):
-        clearance.append(np.interp(new.inner, old.inner, lagged.clearance[side]))
-        middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
-        rate = lagged.offsets[side] / old.dx
-        offsets.append(new.dx * np.interp(places, middles, rate))
+    lagged = iterate.lagged
+    upper, lower = (
+        interpolated(old, new, lagged.clearance[side], lagged.offsets[side])
+        for side, (old, new) in enumerate(zip(iterate.problem.meshes, problem.meshes, strict=True))
+    )
     curved = lagged.curved
     return replace(
         lagged,
-        clearance=(clearance[0], clearance[1]),
-        offsets=(offsets[0], offsets[1]),
+        clearance=(upper[0], lower[0]),
+        offsets=(upper[1], lower[1]),
         curved=curved and CurvedLoad.of(curved.couple, curved.force, places_along(problem)),
     )

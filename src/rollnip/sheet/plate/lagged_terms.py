@@ -10,11 +10,18 @@ from numpy.typing import NDArray
 from rollnip._largest import largest
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
-from rollnip.nip import Torque, Traction
+from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.assemble import loss_inside, mean_shear
+from rollnip.rolling.assemble import mean_shear
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.lagged_terms import (
+    creep_in_stick,
+    has_no_terms,
+    initial_traction,
+    pressed_gap,
+    sheet_rate,
+    traction_for_torque,
+)
 from rollnip.sheet.plate.curved_path import CurvedLoad, curved_load, is_stiff, places_along
 from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
@@ -24,16 +31,10 @@ Array = NDArray[np.float64]
 
 def initial_terms(problem: PlateProblem) -> PlateTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
-    tangential = problem.nip.tangential
-    traction = tangential.traction if isinstance(tangential, Traction) else None
-    traction = 0.0 if isinstance(tangential, Torque) else traction
     n, m = (mesh.inner.size for mesh in problem.meshes)
-    return PlateTerms((np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), traction)
-
-
-def has_no_terms(problem: PlateProblem, geometry: Geometry) -> bool:
-    """Return whether the problem is linear, without any term that depends on the solution."""
-    return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
+    return PlateTerms(
+        (np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), initial_traction(problem.nip)
+    )
 
 
 def lagged_terms(
@@ -47,7 +48,7 @@ def lagged_terms(
     ``before``: the terms that it was solved with; None: none.
     """
     first = initial_terms(problem)
-    if has_no_terms(problem, geometry):
+    if has_no_terms(problem.nip, geometry):
         return first
     clearance, offsets, leans = [], [], []
     old = None if before is None else before.curved
@@ -72,7 +73,9 @@ def lagged_terms(
         offsets[side] += rate * half * np.diff(turned)
     traction = first.traction
     if isinstance(problem.nip.tangential, Torque):
-        traction = _traction_for_torque(problem, geometry, state)
+        uncut = problem.meshes[1].uncut(problem.displacements(state, 1))
+        pull = pull_of(problem, geometry, state, 1, uncut)
+        traction = traction_for_torque(problem, geometry, state, pull)
     both = (clearance[0], clearance[1]), (offsets[0], offsets[1])
     if slopes is None:
         return PlateTerms(*both, traction, 0.5 * sum(leans))
@@ -199,15 +202,3 @@ def _lean(problem: PlateProblem, state: PlateState, side: int, u: Displacements)
     levers = float(mesh.weights @ (shear * mesh.inner))
     inward = (u.z_upper, u.z_lower)[side]
     return -sign * (curvatures(problem.nip)[side] * levers + mesh.work(shear, inward))
-
-
-def _traction_for_torque(problem: PlateProblem, geometry: Geometry, state: PlateState) -> float:
-    """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
-    nip = problem.nip
-    assert isinstance(nip.tangential, Torque)
-    uncut = problem.meshes[1].uncut(problem.displacements(state, 1))
-    pull = pull_of(problem, geometry, state, 1, uncut)
-    lost = loss_inside("lower", nip, geometry, problem.meshes[1], state.side(1))
-    wanted = nip.tangential.torque_lower * nip.lower.curvature
-    sheared = float(problem.meshes[1].weights @ state.shear[1])
-    return lost - wanted - (pull - sheared)

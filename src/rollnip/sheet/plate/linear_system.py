@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
 
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.lu import LUFactors
 from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
@@ -26,23 +26,24 @@ class FactorisedPlate:
 
     problem: PlateProblem
     states: tuple[States, States]
-    factors: Array
-    pivots: NDArray[np.intp]
+    factors: LUFactors
 
     @classmethod
     def of(cls, problem: PlateProblem, states: tuple[States, States]) -> FactorisedPlate:
-        """Factorise the system for given states of both interfaces."""
-        factors, pivots, info = lapack.dgetrf(_matrix(problem, states).T, overwrite_a=1)
-        if info != 0:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return cls(problem, states, factors, pivots)
+        """Factorise the system for given states of both interfaces.
+
+        Raises
+        ------
+        numpy.linalg.LinAlgError
+            where the states make the system singular.
+        """
+        return cls(problem, states, LUFactors.of(_matrix(problem, states)))
 
     def solved(self, lagged: PlateTerms) -> PlateState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
         right = -constant_terms(problem, lagged)[_unknown_indices(states, problem.starts[-1])]
-        unknowns, info = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
-        assert info == 0
+        unknowns = self.factors.solve(right)
         tractions = np.zeros(problem.starts[-1])
         tractions[_unknown_indices(states, 0)[:-EXTRA_UNKNOWNS]] = unknowns[:-EXTRA_UNKNOWNS]
         p_u, q_u, p_l, q_l = np.split(tractions, problem.starts[1:-1])

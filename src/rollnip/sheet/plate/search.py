@@ -21,12 +21,11 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.boundary_layers import mismatch_layer, squeeze_layer, tension_layer
+from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import END_TOLERANCE
-from rollnip.sheet.membrane.search import SHORTEST_LAYER
+from rollnip.sheet.lagged_terms import has_no_terms
 from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.initial_zones import InitialZones
 from rollnip.sheet.plate.interface import interface_mesh, path_ratio
@@ -39,7 +38,6 @@ from rollnip.sheet.plate.iterate import (
 )
 from rollnip.sheet.plate.lagged_terms import (
     change_of_terms,
-    has_no_terms,
     initial_terms,
     lagged_terms,
 )
@@ -191,7 +189,7 @@ class PlateSearch:
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return min(boundary_layer(self.nip), tension_layer(self.nip), squeeze_layer(self.nip))
+        return shortest_layer(self.nip)
 
     def _boundary_of(self, side: int) -> float:
         """Return the length of the shortest boundary layer on one interface [mm].
@@ -279,7 +277,7 @@ class PlateSearch:
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
-            if has_no_terms(problem, self.model.geometry):
+            if has_no_terms(problem.nip, self.model.geometry):
                 break
             updated = lagged_terms(problem, self.model.geometry, state, lagged)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated

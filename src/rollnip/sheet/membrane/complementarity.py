@@ -94,7 +94,7 @@ def updated_states(
     kept = (states[0] != State.FREE) & (state.pressure >= -little)
     out = states.copy()
     for side, friction in enumerate(problem.frictions):
-        sought = state.shears[side] - creeps[side] / problem.own[side]
+        sought = state.shears[side] - creeps[side] / problem.own_creep[side]
         bound = friction * np.maximum(state.pressure, 0.0)
         room = friction * little
         plus = sought > bound + np.where(states[side] == State.SLIP_PLUS, -room, room)
@@ -125,7 +125,7 @@ def _inequalities(
     else:
         matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
     pulled = problem.sheet.tension_in - problem.sheet.tension_out
-    pulls = problem.pulls
+    pulls = problem.force_weights
     matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3], right[-2] = pulls, -pulls, -pulled
     if isinstance(nip.tangential, Creepage):
         matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope

@@ -93,8 +93,8 @@ def _matrix(problem: MembraneProblem, states: States) -> Array:
     else:
         matrix[-3, -3] = 1.0
     # The change of tension through the nip, then T_l or the sum of the creepages.
-    matrix[-2, :size] = _shear_integral(problem.pulls, ratios[0], contact, sticks)
-    matrix[-2, :size] -= _shear_integral(problem.pulls, ratios[1], contact, sticks - n)
+    matrix[-2, :size] = _shear_integral(problem.force_weights, ratios[0], contact, sticks)
+    matrix[-2, :size] -= _shear_integral(problem.force_weights, ratios[1], contact, sticks - n)
     if isinstance(problem.nip.tangential, Creepage):
         matrix[-1, -2:] = 1.0
     else:

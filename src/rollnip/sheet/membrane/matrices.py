@@ -30,16 +30,16 @@ class Integrals:
 
     Attributes
     ----------
-    beyond : (n, n) int_x^inf t ds at these nodes [mm].
-    over : (n, n) integral of ``beyond`` dx over the intervals [mm^2].
-    pressed : (n, n) int t dx over the intervals [mm].
-    whole : (n,) int t ds [mm].
+    tails : (n, n) int_x^inf t ds at these nodes [mm].
+    tail_integrals : (n, n) integral of ``tails`` dx over the intervals [mm^2].
+    interval_integrals : (n, n) int t dx over the intervals [mm].
+    totals : (n,) int t ds [mm].
     """
 
-    beyond: Array
-    over: Array
-    pressed: Array
-    whole: Array
+    tails: Array
+    tail_integrals: Array
+    interval_integrals: Array
+    totals: Array
 
     @classmethod
     def on(cls, mesh: Mesh, arcs: Array) -> Integrals:
@@ -51,19 +51,19 @@ class Integrals:
         values[1:-1] = fine.acting[1:-1, 1:-1]
         pieces = values[1:] + values[:-1]
         pieces *= 0.5 * dx
-        beyond = np.zeros(values.shape)
-        np.cumsum((along * pieces)[::-1], axis=0, out=beyond[-2::-1])
-        over = beyond[1:] + beyond[:-1]
+        tails = np.zeros(values.shape)
+        np.cumsum((along * pieces)[::-1], axis=0, out=tails[-2::-1])
+        over = tails[1:] + tails[:-1]
         over *= 0.5 * dx
         rise = np.subtract(values[1:], values[:-1])
         rise *= along * dx**2 / 12.0
         over += rise
         parts = (fine.nodes.size - 3) // (n - 1)
         return cls(
-            beyond=beyond[1 : parts * (n - 1) + 2 : parts],
-            over=mesh.sums(over[1:]),
-            pressed=mesh.sums(pieces[1:]),
-            whole=beyond[0],
+            tails=tails[1 : parts * (n - 1) + 2 : parts],
+            tail_integrals=mesh.sums(over[1:]),
+            interval_integrals=mesh.sums(pieces[1:]),
+            totals=tails[0],
         )
 
 
@@ -111,7 +111,7 @@ class SheetPath:
         return 0.25 * thickness * np.stack(parts, axis=1)
 
 
-def stabilised_tension(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
+def stabilised_tension(mesh: Mesh, sheet: Sheet, integrals: Integrals, own: Array) -> Array:
     """Return the integral of the tension over each interval, stabilised where tension dominates.
 
     Where a node's shear stretches its interval more through the sheet's tension than through the
@@ -123,17 +123,17 @@ def stabilised_tension(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -
     ratio = sheet.stretch_by_tension * dx**2 / (6.0 * np.abs(own).min(axis=0))
     share = (1.0 / (1.0 + np.minimum(ratio, 1e6) ** -_STEEP))[:, None]
     if float(share.max()) < _NONE:
-        return found.over
-    lumped = dx[:, None] * np.triu(np.broadcast_to(found.whole, (n, n)), k=1)
-    return np.asarray((1.0 - share) * found.over + share * lumped)
+        return integrals.tail_integrals
+    lumped = dx[:, None] * np.triu(np.broadcast_to(integrals.totals, (n, n)), k=1)
+    return np.asarray((1.0 - share) * integrals.tail_integrals + share * lumped)
 
 
-def influence_matrix(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
+def influence_matrix(mesh: Mesh, sheet: Sheet, integrals: Integrals) -> Array:
     """Return gap, upper and lower creep per nodal p, q_u and q_l, (3 n, 3 n) [mm/MPa].
 
     The strain of the sheet due to tension is not included.
     """
-    n, at_nodes = mesh.inner.size, found.beyond
+    n, at_nodes = mesh.inner.size, integrals.tails
     xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = mesh.per_traction
     by_pressure, sheared = sheet.stretch_by_pressure, sheet.shear_by_thickness
     fine, out = mesh.fine, np.zeros((3, n, 3, n))
@@ -151,7 +151,7 @@ def influence_matrix(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     np.subtract(xx_l[1:], xx_l[:-1], out=lower[:, 2])
     if any(mesh.kernels.hoops):
         _add_hoops(mesh, out)
-    pressed = by_pressure * found.pressed
+    pressed = by_pressure * integrals.interval_integrals
     upper[:, 0] -= pressed
     lower[:, 0] += pressed
     _add_bands(upper[:, 1], lower[:, 2], sheared / 3.0)

@@ -136,7 +136,7 @@ class MembraneSearch:
                 crowding = wanted_crowding
             problem = self._problem(zones, (elements, crowding), iterate)
             start = interpolated_terms(iterate, problem)
-            iterate = self._solved(problem, zones, start, steps, (near, misplacement))
+            iterate = self._solve_on_mesh(problem, zones, start, steps, (near, misplacement))
             steps = iterate.steps
             requested = _RequestedZones(iterate, self._slack)
             is_near = known <= _NEARLY_PLACED
@@ -144,15 +144,15 @@ class MembraneSearch:
             misplacement = proposed.distance(zones)
             near = known = min(known, misplacement)
             is_met = violation(iterate) <= self._slack
-            stay = misplacement > _FAIRLY_PLACED and not changes
+            keep_states = misplacement > _FAIRLY_PLACED and not changes
             # If conditions are violated and the nodal states call for unlike zones, the states
             # are checked at once; without violation only when no end moves any more, and once.
             moves = misplacement > allowed
             if is_met:
-                stay = stay or moves or changes > 0 or requested.are_like
+                keep_states = keep_states or moves or changes > 0 or requested.are_like
             else:
-                stay = stay or (moves and requested.are_like)
-            if stay:
+                keep_states = keep_states or (moves and requested.are_like)
+            if keep_states:
                 if misplacement <= allowed and iterate.settled and is_fine and is_met:
                     return replace(iterate, zones=proposed, misplacement=misplacement)
                 zones = (
@@ -164,7 +164,7 @@ class MembraneSearch:
             changes += 1
             if changes > _MOST_CHANGES:
                 break
-            other = self._other(iterate, proposed)
+            other = self._other_zones(iterate, proposed)
             iterate, zones = (iterate, proposed) if other is None else other
             steps, elements = iterate.steps, None
         proper = zones if zones.is_proper else iterate.zones
@@ -189,12 +189,12 @@ class MembraneSearch:
     ) -> MembraneProblem:
         """Assemble the problem on a mesh with nodes at the zone ends."""
         nodes = cosine_nodes(zones.breaks, *shape)
-        kernels = self._holding(before)
+        kernels = self._kernels_for(before)
         mesh = membrane_mesh_on(nodes, kernels, subdivided(nodes, *shape))
         bends = before is not None and self.model.geometry != "linear"
-        return MembraneProblem.on(self.nip, mesh, self._arcs(mesh, before), has_path=bends)
+        return MembraneProblem.on(self.nip, mesh, self._path_ratios(mesh, before), has_path=bends)
 
-    def _arcs(self, mesh: MembraneMesh, before: MembraneIterate | None) -> Array | None:
+    def _path_ratios(self, mesh: MembraneMesh, before: MembraneIterate | None) -> Array | None:
         """Return ds/dx of the sheet's path in the previous solution; None: all 1."""
         if before is None or self.model.geometry not in FINITE:
             return None
@@ -204,7 +204,7 @@ class MembraneSearch:
         places = 0.5 * (mesh.fine.nodes[1:] + mesh.fine.nodes[:-1])
         return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
 
-    def _holding(self, before: MembraneIterate | None) -> PairKernels:
+    def _kernels_for(self, before: MembraneIterate | None) -> PairKernels:
         """Return influence functions with second-order terms of the previous solution, if any."""
         if self.kernels.is_fixed:
             return self.kernels
@@ -213,7 +213,7 @@ class MembraneSearch:
             held = before.problem.mesh.second_fields(before.state)
         return replace(self.kernels, held=held)
 
-    def _solved(
+    def _solve_on_mesh(
         self,
         problem: MembraneProblem,
         zones: MembraneZones,
@@ -227,7 +227,7 @@ class MembraneSearch:
         Ends that are far off leave singular tractions, for which updated terms are meaningless.
         """
         system = FactorisedMembrane.of(problem, zones.states_on(problem.mesh.inner))
-        change, still = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, _STILL * self.model.tolerance
         most = _MOST_ITERATIONS if misplacement[1] < _NEARLY_PLACED else 2
         for _ in range(most):
             state = system.solved(lagged)
@@ -239,19 +239,19 @@ class MembraneSearch:
                 break
             updated = lagged_terms(problem, self.model.geometry, state)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated
-            if not change > still:
+            if not change > settled_change:
                 break
         if not (np.isfinite(change) and np.all(np.isfinite(state.pressure))):
             raise np.linalg.LinAlgError("no finite solution")
         return MembraneIterate(
-            zones, problem, state, lagged, change, inf, steps, bool(change <= still)
+            zones, problem, state, lagged, change, inf, steps, bool(change <= settled_change)
         )
 
     @property
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _other(
+    def _other_zones(
         self, iterate: MembraneIterate, edges: MembraneZones
     ) -> tuple[MembraneIterate, MembraneZones] | None:
         """Return other zones between known edges, found node by node; None where there are none."""
@@ -284,7 +284,7 @@ class _RequestedZones:
         return updated_states(iterate.problem, iterate.state, iterate.creeps, self.slack)
 
     @cached_property
-    def _found(self) -> MembraneZones | None:
+    def _consistent_zones(self) -> MembraneZones | None:
         """Return the zones of these states, if they are like those of the solution."""
         iterate, wanted = self.iterate, self._wanted
         state = replace(iterate.state, states=wanted[0], states_lower=wanted[1])
@@ -297,7 +297,7 @@ class _RequestedZones:
     def are_like(self) -> bool:
         """Return whether the states make zones like those of the solution."""
         same = np.array_equal(self._wanted, self.iterate.state.both_states)
-        return same or self._found is not None
+        return same or self._consistent_zones is not None
 
     def creeps_against_shear(self, number: int) -> Mask:
         """Return at which transitions of an interface the slip beside it must stick again, (m,).
@@ -314,7 +314,7 @@ class _RequestedZones:
     @property
     def sides(self) -> tuple[Layout, Layout]:
         """Return the resulting zones of both interfaces; if unlike, those of the solution."""
-        return (self._found or self.iterate.zones).sides
+        return (self._consistent_zones or self.iterate.zones).sides
 
 
 def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:

@@ -171,11 +171,11 @@ class MembraneProblem:
     frictions : coefficients of the upper and the lower interface.
     arcs : ds/dx of the sheet's path on the intervals of the fine nodes.
     tension : (n, n) int_x^inf q ds at ``mesh.inner`` per nodal shear [mm].
-    over : (n, n) integral of ``tension`` dx over each interval [mm^2].
-    pulls : (n,) int q ds per nodal shear [mm].
-    pressed : (n, n) int p dx over each interval per nodal pressure [mm].
-    own : (2, n) creep of each interval due to the shear of its own node, without the tension that
-        this shear causes; negative [mm/MPa].
+    tension_over : (n, n) integral of ``tension`` dx over each interval [mm^2].
+    force_weights : (n,) int q ds per nodal shear [mm].
+    pressure_over : (n, n) int p dx over each interval per nodal pressure [mm].
+    own_creep : (2, n) creep of each interval due to the shear of its own node, without the tension
+        that this shear causes; negative [mm/MPa].
     matrix : (3 n, 3 n) of gap, upper and lower creep per p, q_u and q_l [mm/MPa].
     has_path : whether the matrix includes the effect of the sheet's curved path on the creeps.
     """
@@ -186,10 +186,10 @@ class MembraneProblem:
     frictions: tuple[float, float]
     arcs: Array
     tension: Array
-    over: Array
-    pulls: Array
-    pressed: Array
-    own: Array
+    tension_over: Array
+    force_weights: Array
+    pressure_over: Array
+    own_creep: Array
     matrix: Array
     has_path: bool = False
 
@@ -206,11 +206,11 @@ class MembraneProblem:
         sheet = nip.sheet
         assert sheet is not None
         arcs = np.ones(mesh.fine.nodes.size - 1) if arcs is None else arcs
-        found = Integrals.on(mesh, arcs)
-        matrix = influence_matrix(mesh, sheet, found)
+        integrals = Integrals.on(mesh, arcs)
+        matrix = influence_matrix(mesh, sheet, integrals)
         n = mesh.inner.size
         own = np.minimum(np.diagonal(matrix)[n:].reshape(2, n), -_TINY)
-        over = stabilised_tension(mesh, sheet, found, own)
+        over = stabilised_tension(mesh, sheet, integrals, own)
         made = sheet.stretch_by_tension * over
         _, upper, lower = matrix.reshape(3, n, 3, n)
         for block in (upper[:, 1], lower[:, 2]):
@@ -223,11 +223,11 @@ class MembraneProblem:
             mesh=mesh,
             frictions=frictions_of(nip),
             arcs=arcs,
-            tension=found.beyond,
-            over=over,
-            pulls=found.whole,
-            pressed=found.pressed,
-            own=own,
+            tension=integrals.tails,
+            tension_over=over,
+            force_weights=integrals.totals,
+            pressure_over=integrals.interval_integrals,
+            own_creep=own,
             matrix=matrix,
             has_path=has_path and not (nip.upper.is_rigid or nip.lower.is_rigid),
         )
@@ -267,8 +267,10 @@ class MembraneProblem:
 
     def strain_over(self, state: MembraneState) -> Array:
         """Return int e dx over each interval, (n,) [mm]."""
-        tension = self.sheet.tension_in * self.dx - self.over @ (state.shear - state.shear_lower)
-        pressed = self.sheet.stretch_by_pressure * (self.pressed @ state.pressure)
+        tension = self.sheet.tension_in * self.dx - self.tension_over @ (
+            state.shear - state.shear_lower
+        )
+        pressed = self.sheet.stretch_by_pressure * (self.pressure_over @ state.pressure)
         return np.asarray(self.sheet.stretch_by_tension * tension + pressed)
 
     def gap_and_creeps(self, state: MembraneState, lagged: MembraneTerms) -> Array:

@@ -79,14 +79,14 @@ class PlateSearch:
     def start(self, half_width: float, count: int) -> PlateIterate:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
-        zones = self._first.around(half_width, count).without_slivers()
-        iterate, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
+        zones = self._initial_zones.around(half_width, count).without_slivers()
+        iterate, _ = plain._solve_with_zones(zones, (count, _Shapes()), (1.0, inf), None)
         moved = zones.moved(iterate.problem, iterate.state)
         lagged = lagged_terms(iterate.problem, self.model.geometry, iterate.state)
         return replace(iterate, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
-    def _first(self) -> InitialZones:
+    def _initial_zones(self) -> InitialZones:
         return InitialZones(self.nip, self.kernels)
 
     def settle_zones(
@@ -103,20 +103,20 @@ class PlateSearch:
         """
         allowed = end_tolerance * self.model.tolerance
         try:
-            iterate = self._moved_until(zones, count, before, allowed)
+            iterate = self._settle_ends(zones, count, before, allowed)
         except np.linalg.LinAlgError:
             return replace(before, settled=False)
         if iterate.settled:
             return iterate
         start = iterate.zones if iterate.zones.is_proper else zones
         try:
-            found = self._first.closer(start, iterate.lagged, count)
-            again = self._moved_until(found, count, iterate, allowed)
+            found = self._initial_zones.closer(start, iterate.lagged, count)
+            again = self._settle_ends(found, count, iterate, allowed)
         except np.linalg.LinAlgError:
             return iterate
         return again if again.settled or again.misplacement < iterate.misplacement else iterate
 
-    def _moved_until(
+    def _settle_ends(
         self, zones: PlateZones, count: int, before: PlateIterate, allowed: float
     ) -> PlateIterate:
         """Move the zone ends until they converge, and change zones with wrong states.
@@ -134,7 +134,9 @@ class PlateSearch:
             zones = zones.without_slivers().reopened(END_TOLERANCE * self.model.tolerance)
             if not zones.is_proper:
                 break
-            iterate, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), iterate)
+            iterate, is_fine = self._solve_with_zones(
+                zones, (count, shapes), (known, misplacement), iterate
+            )
             problem = iterate.problem
             proposed = zones.moved(problem, iterate.state)
             misplacement = proposed.distance(zones)
@@ -152,7 +154,7 @@ class PlateSearch:
             rough = misplacement > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met or (is_fair and not is_placed)):
-                found = self._found(iterate, proposed)
+                found = self._consistent_zones(iterate, proposed)
                 if found is None:
                     break
                 if not found.is_like(zones):
@@ -168,9 +170,9 @@ class PlateSearch:
             zones = (
                 proposed if misplacement > _NEARLY_PLACED else self.secants.next(zones, proposed)
             )
-        return _unplaced(zones, iterate, misplacement) if fair is None else fair
+        return _unsettled(zones, iterate, misplacement) if fair is None else fair
 
-    def _on_mesh(
+    def _solve_with_zones(
         self,
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
@@ -184,7 +186,7 @@ class PlateSearch:
         problem, is_fine = self._problem(zones, sizes, misplacement[0], before)
         start = initial_terms(problem) if before is None else interpolated_terms(before, problem)
         steps = 0 if before is None else before.steps
-        return self._solved(problem, zones, start, steps, misplacement[1]), is_fine
+        return self._solve_on_mesh(problem, zones, start, steps, misplacement[1]), is_fine
 
     @cached_property
     def boundary(self) -> float:
@@ -232,11 +234,11 @@ class PlateSearch:
                 shapes[number, crowding] = kept
             nodes = cosine_nodes(breaks, kept, crowding)
             fine = subdivided(nodes, kept, crowding)
-            meshes.append(interface_mesh(nodes, fine, self._holding(before, number), number))
+            meshes.append(interface_mesh(nodes, fine, self._kernels_for(before, number), number))
         both = meshes[0], meshes[1]
-        return PlateProblem.on(self.nip, both, self._arcs(both, before)), is_fine
+        return PlateProblem.on(self.nip, both, self._path_ratios(both, before)), is_fine
 
-    def _arcs(
+    def _path_ratios(
         self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
         """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
@@ -250,7 +252,7 @@ class PlateSearch:
             out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
-    def _holding(self, before: PlateIterate | None, side: int) -> PairKernels:
+    def _kernels_for(self, before: PlateIterate | None, side: int) -> PairKernels:
         """Return influence functions with one roller's second-order terms of the previous solution.
 
         Influence functions without second-order terms are returned unchanged.
@@ -262,7 +264,7 @@ class PlateSearch:
             held = before.problem.meshes[side].second_fields(before.state.side(side))
         return replace(self.kernels, held=held)
 
-    def _solved(
+    def _solve_on_mesh(
         self,
         problem: PlateProblem,
         zones: PlateZones,
@@ -273,7 +275,7 @@ class PlateSearch:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, still = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, _STILL * self.model.tolerance
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
@@ -281,18 +283,25 @@ class PlateSearch:
                 break
             updated = lagged_terms(problem, self.model.geometry, state, lagged)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated
-            if not change > still:
+            if not change > settled_change:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)
         return PlateIterate(
-            zones, problem, state, lagged, change, inf, steps, bool(change <= still and finite)
+            zones,
+            problem,
+            state,
+            lagged,
+            change,
+            inf,
+            steps,
+            bool(change <= settled_change and finite),
         )
 
     @property
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _found(self, iterate: PlateIterate, edges: PlateZones) -> PlateZones | None:
+    def _consistent_zones(self, iterate: PlateIterate, edges: PlateZones) -> PlateZones | None:
         """Return zones with consistent states between known edges; None where there are none."""
         if max(mesh.inner.size for mesh in iterate.problem.meshes) > _MOST_NODES:
             return None
@@ -304,7 +313,7 @@ class PlateSearch:
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, iterate: PlateIterate, misplacement: float) -> PlateIterate:
+def _unsettled(zones: PlateZones, iterate: PlateIterate, misplacement: float) -> PlateIterate:
     """Return the last solution, marked as not converged."""
     proper = zones if zones.is_proper else iterate.zones
     return replace(iterate, zones=proper, settled=False, misplacement=misplacement)

@@ -73,7 +73,7 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
     plate = replace(Plate.of(BOARD), tension=tension)
     one = PiecewiseLoads.on(mesh, BOARD, plate).of(values)
     tail_moments = one.tail_moments_at(np.array([x]))
-    found = [float(part[0, 0]) for part in one.bent(np.array([x]), tail_moments)]
+    found = [float(part[0, 0]) for part in one.deflection(np.array([x]), tail_moments)]
     pieces = np.sort(np.append(mesh.fine.nodes, np.clip(x, -1.1, 0.9)))
 
     def integral(function):

@@ -17,7 +17,7 @@ from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.membrane.lagged_terms import (
     change_of_terms,
     lagged_terms,
-    path_turn,
+    path_slope_changes,
     pulls_of,
     residual_with_terms,
 )
@@ -119,7 +119,7 @@ def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     taken = rate * float(pushed.sum())
     if geometry == "linear":
         return taken + float(pushed @ strain)
-    turn = path_turn(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
+    turn = path_slope_changes(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
     bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
     return taken + rate * (float(pushed @ strain) - bent)
 

@@ -102,7 +102,7 @@ def residual_with_terms(
     return largest(*parts)
 
 
-def path_turn(problem: MembraneProblem, u: Displacements) -> Array:
+def path_slope_changes(problem: MembraneProblem, u: Displacements) -> Array:
     """Return the change of slope of the sheet's middle over each interval of nodes[1:], (n,).
 
     The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2.
@@ -113,7 +113,7 @@ def path_turn(problem: MembraneProblem, u: Displacements) -> Array:
     if nip.upper.is_rigid or nip.lower.is_rigid:
         own = nip.upper.curvature if nip.upper.is_rigid else -nip.lower.curvature
         return np.asarray(own * mesh.dx)
-    bent = problem.path.turn(u.z_upper - u.z_lower)
+    bent = problem.path.slope_changes(u.z_upper - u.z_lower)
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
 
 
@@ -136,9 +136,9 @@ def _offsets(
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)
     half = 0.5 * (state.creepage + state.creepage_lower)
     rate = sheet_rate(state.creepage, state.creepage_lower)
-    turn = rate * path_turn(problem, u)
+    turn = rate * path_slope_changes(problem, u)
     if problem.has_path:  # the matrix includes the path by linear displacements
-        turn -= 0.5 * problem.path.turn(flat.z_upper - flat.z_lower)
+        turn -= 0.5 * problem.path.slope_changes(flat.z_upper - flat.z_lower)
     bend = 0.5 * problem.sheet.thickness * turn
     strained = (rate - 1.0) * problem.strain_over(state)
     upper = mesh.sums((1.0 + half) * excess[0] - linear[0])

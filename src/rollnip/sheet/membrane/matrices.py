@@ -96,18 +96,18 @@ class SheetPath:
         slopes[:-1] = np.diff(basis[:, :-1] @ _SLOPES, axis=0) / half
         return cls(slopes, np.asarray(np.linalg.solve(weighted.T @ basis, weighted.T), float))
 
-    def turn(self, heights: Array) -> Array:
+    def slope_changes(self, heights: Array) -> Array:
         """Return the change of slope over the intervals, for heights at nodes[1:], (n, ...)."""
         return np.asarray(self.slopes @ (self.nearest @ heights[:-1]))
 
-    def bent(self, mesh: Mesh, thickness: float) -> Array:
+    def creep_matrix(self, mesh: Mesh, thickness: float) -> Array:
         """Return the path's part of either creep per nodal p, q_u and q_l, (n, 3, n) [mm/MPa].
 
         The faces run at 1 + e -+ h kappa/2: both creeps gain h/2 times the change of slope of the
         middle, which lies halfway between both surfaces, (u_z,u - u_z,l)/2.
         """
         _, zz_u, xz_u, _, zz_l, xz_l = mesh.per_traction
-        parts = [self.turn(heights) for heights in (zz_u - zz_l, -xz_u, -xz_l)]
+        parts = [self.slope_changes(heights) for heights in (zz_u - zz_l, -xz_u, -xz_l)]
         return 0.25 * thickness * np.stack(parts, axis=1)
 
 

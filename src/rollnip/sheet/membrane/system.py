@@ -232,7 +232,7 @@ class MembraneProblem:
             has_path=has_path and not (nip.upper.is_rigid or nip.lower.is_rigid),
         )
         if problem.has_path:
-            bent = problem.path.bent(mesh, sheet.thickness)
+            bent = problem.path.creep_matrix(mesh, sheet.thickness)
             upper += bent
             lower += bent
         return problem

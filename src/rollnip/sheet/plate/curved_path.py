@@ -41,14 +41,14 @@ class CurvedLoad:
     ----------
     couple, force : c [N/mm] and f [MPa], each of one set, at the same nodes.
     places : (m,) at which their effect on the plate is known, in ascending order [mm].
-    height, turned : height [mm] and rotation of the plate due to them at these places, each (m,).
+    height, rotation : height [mm] and rotation of the plate due to them at these places, each (m,).
     """
 
     couple: PiecewiseLoads
     force: PiecewiseLoads
     places: Array
     height: Array
-    turned: Array
+    rotation: Array
 
     @classmethod
     def of(cls, couple: PiecewiseLoads, force: PiecewiseLoads, places: Array) -> CurvedLoad:
@@ -65,11 +65,11 @@ class CurvedLoad:
         """Return the moment about x = 0 per width [N]."""
         return float(self.force.moment[0] - self.couple.whole[0])
 
-    def bent_at(self, x: Array) -> tuple[Array, Array]:
+    def deflection_at(self, x: Array) -> tuple[Array, Array]:
         """Return height [mm] and rotation of the plate under the load at places, each (m,)."""
         at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
         if np.array_equal(self.places[at], x):
-            return self.height[at], self.turned[at]
+            return self.height[at], self.rotation[at]
         return _bent(self.couple, self.force, x)
 
     def change_from(self, old: CurvedLoad, load: float) -> float:
@@ -84,8 +84,8 @@ class CurvedLoad:
 
 def _bent(couple: PiecewiseLoads, force: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
     turned, pushed = (
-        couple.bent(x, couple.tail_moments_at(x)),
-        force.bent(x, force.tail_moments_at(x)),
+        couple.deflection(x, couple.tail_moments_at(x)),
+        force.deflection(x, force.tail_moments_at(x)),
     )
     return (turned[1] + pushed[0])[:, 0], (turned[2] + pushed[1])[:, 0]
 

@@ -88,7 +88,10 @@ def gap_at(
     """Return the gap between one roller and the sheet at given places, (m,) [mm]."""
     problem, state, curved = iterate.problem, iterate.state, iterate.lagged.curved
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
-    gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
+    gap = (
+        surface_depths(x, problem.nip, model[1], u)[side]
+        + problem.face_indentations_at(state, x)[side]
+    )
     gap -= SIGNS[side] * problem.height_at(state, x, curved)
     if curved is not None:
         gap -= 0.25 * problem.sheet.thickness * problem.rotation_at(state, x, curved) ** 2

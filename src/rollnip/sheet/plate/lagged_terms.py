@@ -86,7 +86,7 @@ def lagged_terms(
 
 def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
     """Return the rotation due to the curved path at nodes[1:] of both meshes."""
-    both = (curved.bent_at(mesh.nodes[1:])[1] for mesh in problem.meshes)
+    both = (curved.deflection_at(mesh.nodes[1:])[1] for mesh in problem.meshes)
     upper, lower = both
     return upper, lower
 

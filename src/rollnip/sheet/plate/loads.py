@@ -93,7 +93,7 @@ class PiecewiseLoads:
         out += (first * (1.0 - share) + last)[..., None] * self.lines[at + 1]
         return np.asarray(out + self.tail_moments[:, at + 1])
 
-    def bent(self, x: Array, tail_moments: Array) -> tuple[Array, Array, Array]:
+    def deflection(self, x: Array, tail_moments: Array) -> tuple[Array, Array, Array]:
         """Return the bending of the plate at given places, with the tractions as loads.
 
         Parameters

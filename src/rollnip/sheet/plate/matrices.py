@@ -17,7 +17,7 @@ Pair = tuple[Array, Array]
 _STEEP = 4.0  # exponent of the blend between exact and lumped integrals of the tension
 
 
-def gaps_and_creeps_of(
+def influence_matrices(
     meshes: tuple[Mesh, Mesh],
     loads: tuple[PiecewiseLoads, PiecewiseLoads],
     path_shears: tuple[PiecewiseLoads, PiecewiseLoads],
@@ -93,7 +93,7 @@ def _by_sheet(
     signs = here * there
     load_tails = loads.tail_moments_at(x)
     shear_tails = load_tails if path_shears is loads else path_shears.tail_moments_at(x)
-    height, slope, bend = loads.bent(x, load_tails)
+    height, slope, bend = loads.deflection(x, load_tails)
     out = np.empty((2, x.size - 1, 2, loads.lines.shape[1]))
     # y is driven by -p_u and +p_l; the upper gap contains -y, the lower one +y
     out[0, :, 0] = signs * height[:-1] + loads.face_indentation(x[:-1], is_far[:-1])

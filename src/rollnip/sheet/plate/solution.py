@@ -155,7 +155,7 @@ class PlateSolution(SheetSolution):
     @cached_property
     def _thinned_faces(self) -> Array:
         iterate = self._iterate
-        return iterate.problem.thinned_at(iterate.state, self._points[0])
+        return iterate.problem.face_indentations_at(iterate.state, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:

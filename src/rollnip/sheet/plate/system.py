@@ -38,7 +38,7 @@ from rollnip.sheet.plate.interface import (
     values_at,
 )
 from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
-from rollnip.sheet.plate.matrices import Pair, gaps_and_creeps_of
+from rollnip.sheet.plate.matrices import Pair, influence_matrices
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -121,7 +121,7 @@ class PlateProblem:
     frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
-    turned : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise [1/MPa].
+    rotation_influence : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise [1/MPa].
     """
 
     nip: Nip
@@ -132,7 +132,7 @@ class PlateProblem:
     path_shears: tuple[PiecewiseLoads, PiecewiseLoads]
     frictions: tuple[float, float]
     matrix: Array
-    turned: Array
+    rotation_influence: Array
 
     @classmethod
     def on(
@@ -156,7 +156,7 @@ class PlateProblem:
                 for mesh, along in zip(meshes, arcs, strict=True)
             )
             path_shears = upper, lower
-        made = gaps_and_creeps_of(meshes, loads, path_shears)
+        made = influence_matrices(meshes, loads, path_shears)
         return cls(nip, sheet, plate, meshes, loads, path_shears, frictions_of(nip), *made)
 
     @property
@@ -180,7 +180,7 @@ class PlateProblem:
             gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
             creep = lagged.offsets[side]
             if lagged.curved is not None:
-                height, turned = lagged.curved.bent_at(mesh.nodes[1:])
+                height, turned = lagged.curved.deflection_at(mesh.nodes[1:])
                 gap = gap - SIGNS[side] * height[:-1]
                 creep = creep + half * np.diff(turned)
             out.append(gap + 0.5 * sheet.stretch_by_pressure * pulled)
@@ -231,9 +231,9 @@ class PlateProblem:
         """Return the height of the sheet's middle at given places, (m,) [mm]."""
         out = state.height + state.rotation * x
         if curved is not None:
-            out += curved.bent_at(x)[0]
+            out += curved.deflection_at(x)[0]
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
             out -= SIGNS[side] * pressed[0] + half * sheared[1]
         return np.asarray(out)
 
@@ -241,30 +241,30 @@ class PlateProblem:
         """Return the rotation of the sheet's sections at given places, (m,)."""
         out = np.full(x.size, state.rotation)
         if curved is not None:
-            out += curved.bent_at(x)[1]
+            out += curved.deflection_at(x)[1]
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
             out -= SIGNS[side] * pressed[1] + half * sheared[2]
         return out
 
     def rotations(self, state: PlateState, curved: CurvedLoad | None = None) -> tuple[Array, Array]:
         """Return the rotation of the sheet's sections at nodes[1:] of both meshes."""
-        out = state.rotation + self.turned @ state.tractions
+        out = state.rotation + self.rotation_influence @ state.tractions
         if curved is not None:
-            out += curved.bent_at(self.places)[1]
+            out += curved.deflection_at(self.places)[1]
         upper, lower = np.split(out, [self.meshes[0].nodes.size - 1])
         return upper, lower
 
-    def _bent_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
-        """Return the bending by pressure and shear of each interface, see `PiecewiseLoads.bent`."""
+    def _deflections_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
+        """Return the deflections by pressure and by shear, see `PiecewiseLoads.deflection`."""
         out = []
         for one, *tractions in zip(self.loads, state.pressure, state.shear, strict=True):
             both = one.of(np.stack(tractions, axis=1))
-            made = both.bent(x, both.tail_moments_at(x))
+            made = both.deflection(x, both.tail_moments_at(x))
             out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
         return out
 
-    def thinned_at(self, state: PlateState, x: Array) -> Array:
+    def face_indentations_at(self, state: PlateState, x: Array) -> Array:
         """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
         both = np.tile(x, 2)
         out = np.full((2, x.size), 0.5 * self.sheet.stretch_by_pressure * self.sheet.tension_in)

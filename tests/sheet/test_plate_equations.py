@@ -152,7 +152,7 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
     righting_moment = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
     curved = iterate.lagged.curved
     if curved is not None:
-        force, moment = force + curved.whole, moment + curved.moment
+        force, moment = force + curved.total, moment + curved.moment
     # lagged terms have changed once more since
     least = 1e-12 if curved is None else 1e-6
     assert force == pytest.approx(0.0, abs=least * pulled.load)

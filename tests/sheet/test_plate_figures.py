@@ -37,7 +37,9 @@ def test_the_loss_of_friction_hardly_feels_where_slip_begins(iterate):
     for off in (-3e-3, -1e-3, 1e-3, 3e-3):
         ends = right.zones.ends.copy()
         ends[1] += off * right.zones.upper.width
-        moved, _ = search._on_mesh(right.zones.with_ends(ends), (51, {}), (1e-9, 1e-9), right)
+        moved, _ = search._solve_with_zones(
+            right.zones.with_ends(ends), (51, {}), (1e-9, 1e-9), right
+        )
         assert figures(moved).friction_upper == pytest.approx(loss, rel=2e-3)
 
 

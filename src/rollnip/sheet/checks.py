@@ -146,10 +146,10 @@ def creepage_errors(nip: Nip, refined: Refined[AnyIterate]) -> tuple[float, floa
 
 
 def simpler_geometry_reservations(
-    left: Sequence[Geometry], geometry: Geometry
+    unsolved: Sequence[Geometry], geometry: Geometry
 ) -> tuple[Reservation, ...]:
     """Return reservations that name geometries without a solution and the one solved instead."""
-    causes = [(one, f"its zones or its {BEYOND[one]} did not settle") for one in left]
+    causes = [(one, f"its zones or its {BEYOND[one]} did not settle") for one in unsolved]
     return instead_of(causes, geometry)
 
 

@@ -69,15 +69,15 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         )
     require_torque(nip)
     assert nip.sheet is not None
-    asked, freely = nip.sheet.bending, membrane_limit(nip, model, cache)
+    bending, limit = nip.sheet.bending, membrane_limit(nip, model, cache)
     record: Record = (version, ())
-    if asked or (asked is None and spreading_length(nip) > freely):
-        counted = solve_plate(nip, model, cache, record)
-        if counted is not None:
-            return counted
-        if bending_length(nip) > freely:  # otherwise the errors cover the tension's effect
-            said = "No solution with the sheet's bending stiffness could be verified."
-            record = (version, (Reservation("no_plate", said),))
+    if bending or (bending is None and spreading_length(nip) > limit):
+        solution = solve_plate(nip, model, cache, record)
+        if solution is not None:
+            return solution
+        if bending_length(nip) > limit:  # otherwise the errors cover the tension's effect
+            text = "No solution with the sheet's bending stiffness could be verified."
+            record = (version, (Reservation("no_plate", text),))
     return _solve_as_membrane(nip, model, cache, record, start)
 
 
@@ -93,13 +93,12 @@ def _solve_as_membrane(
     ``record``: version, and why a bending stiffness that matters was neglected; in that case the
     solution does not count as verified.
     """
-    version, simpler = record
-    model, kernels, refined, left = _solve_with_fallback(nip, model, cache)
-    left = simpler + left
+    version, no_plate = record
+    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     require_grip(nip, refined)
     final = membrane_round(nip, refined)
     converged, status = (
-        (False, simpler[0].text) if simpler else sheet_verdict(nip, model, refined, final)
+        (False, no_plate[0].text) if no_plate else sheet_verdict(nip, model, refined, final)
     )
     strains = StrainSizes.of(nip, model, final)
     solution = SheetSolution(
@@ -108,7 +107,8 @@ def _solve_as_membrane(
         converged=converged,
         status=status,
         reservations=consistent(
-            left
+            no_plate
+            + on_geometry
             + _reservations(nip, refined)
             + curved_tension_reservations(nip, model)
             + validity_reservations(nip, model, final, strains)
@@ -129,17 +129,17 @@ def _solve_with_fallback(
 
     Where the asked geometry has no settled solution, simpler ones are tried in turn.
     """
-    left: list[Geometry] = []
+    unsolved: list[Geometry] = []
     while True:
         kernels, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
         simpler = SIMPLER.get(model.geometry)
         if refined is not None and (simpler is None or refined.iterate.settled):
-            reservations = simpler_geometry_reservations(left, model.geometry)
+            reservations = simpler_geometry_reservations(unsolved, model.geometry)
             return model, kernels, refined, reservations
         if simpler is None:
             require_torque(nip, 1.0)
             raise ConvergenceError(_none_found(nip))
-        left.append(model.geometry)
+        unsolved.append(model.geometry)
         model = replace(model, geometry=simpler)
 
 

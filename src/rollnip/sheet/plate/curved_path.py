@@ -53,24 +53,24 @@ class CurvedLoad:
     @classmethod
     def of(cls, couple: PiecewiseLoads, force: PiecewiseLoads, places: Array) -> CurvedLoad:
         """Return the load with its effect at given places."""
-        return cls(couple, force, places, *_bent(couple, force, places))
+        return cls(couple, force, places, *_deflection(couple, force, places))
 
     @property
-    def whole(self) -> float:
+    def total(self) -> float:
         """Return the force per width [N/mm]."""
-        return float(self.force.whole[0])
+        return float(self.force.total[0])
 
     @property
     def moment(self) -> float:
         """Return the moment about x = 0 per width [N]."""
-        return float(self.force.moment[0] - self.couple.whole[0])
+        return float(self.force.moment[0] - self.couple.total[0])
 
     def deflection_at(self, x: Array) -> tuple[Array, Array]:
         """Return height [mm] and rotation of the plate under the load at places, each (m,)."""
         at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
         if np.array_equal(self.places[at], x):
             return self.height[at], self.rotation[at]
-        return _bent(self.couple, self.force, x)
+        return _deflection(self.couple, self.force, x)
 
     def change_from(self, old: CurvedLoad, load: float) -> float:
         """Return the largest change of couple and force since an older load, over the line load."""
@@ -82,12 +82,12 @@ class CurvedLoad:
         return float(couple.max() + np.trapezoid(force, x)) / load
 
 
-def _bent(couple: PiecewiseLoads, force: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
-    turned, pushed = (
+def _deflection(couple: PiecewiseLoads, force: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
+    by_couple, by_force = (
         couple.deflection(x, couple.tail_moments_at(x)),
         force.deflection(x, force.tail_moments_at(x)),
     )
-    return (turned[1] + pushed[0])[:, 0], (turned[2] + pushed[1])[:, 0]
+    return (by_couple[1] + by_force[0])[:, 0], (by_couple[2] + by_force[1])[:, 0]
 
 
 def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:

@@ -81,7 +81,7 @@ def lagged_terms(
         return PlateTerms(*both, traction, 0.5 * sum(leans))
     slope = np.concatenate(slopes)[np.unique(problem.places, return_index=True)[1]]
     curved = curved_load(problem, state, path, slope)
-    return PlateTerms(*both, traction, 0.5 * (sum(leans) + curved.whole), curved)
+    return PlateTerms(*both, traction, 0.5 * (sum(leans) + curved.total), curved)
 
 
 def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:

@@ -86,7 +86,7 @@ def _integral_conditions(problem: PlateProblem) -> Array:
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
     rows[2, b:c], rows[2, d:] = half * weights[0], half * weights[1]
-    rows[3, b:c], rows[3, d:] = problem.path_shears[0].whole, -problem.path_shears[1].whole
+    rows[3, b:c], rows[3, d:] = problem.path_shears[0].total, -problem.path_shears[1].total
     rows[4, d:] = weights[1]
     return rows
 
@@ -121,7 +121,7 @@ def constant_terms(problem: PlateProblem, lagged: PlateTerms) -> Array:
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
     assert last is not None
     pulled, curved = sheet.tension_in - sheet.tension_out, lagged.curved
-    force, moment = (0.0, 0.0) if curved is None else (curved.whole, curved.moment)
+    force, moment = (0.0, 0.0) if curved is None else (curved.total, curved.moment)
     return np.concatenate([problem.constant_terms(lagged), [-load, force, moment, -pulled, -last]])
 
 

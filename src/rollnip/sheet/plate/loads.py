@@ -73,7 +73,7 @@ class PiecewiseLoads:
         return replace(self, lines=self.lines @ sets, tail_moments=self.tail_moments @ sets)
 
     @property
-    def whole(self) -> Array:
+    def total(self) -> Array:
         """Return int t dx of each set, (n,) [mm]."""
         return np.asarray(self.tail_moments[0, 0])
 

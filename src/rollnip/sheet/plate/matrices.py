@@ -110,7 +110,7 @@ def _by_sheet(
         ahead = meshes[by].inner - x[:, None]
         bends = loads.plate.curvature(ahead)
         lumped = _stretched(sheet, signs, _changes(np.maximum(ahead, 0.0)), _changes(bends))
-        exact += share * (path_shears.whole * lumped - exact)
+        exact += share * (path_shears.total * lumped - exact)
     out[1, :, 1] = exact
     return out, np.concatenate([-there * slope, -half * bend], axis=1)
 

@@ -58,11 +58,11 @@ def solve_plate(
     ConvergenceError
         where the stiffness is asked for and no solution was found at all.
     """
-    start, (version, said) = perf_counter(), record
+    start, (version, reservations) = perf_counter(), record
     assert nip.sheet is not None
     asked = nip.sheet.bending is True
-    model, kernels, refined, left = _solve_with_fallback(nip, model, cache)
-    said += left
+    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
+    reservations += on_geometry
     if refined is None:
         if asked:
             raise ConvergenceError(
@@ -73,7 +73,9 @@ def solve_plate(
     if not asked and not refined.iterate.settled:
         return None
     require_grip(nip, refined)
-    found = _solution(nip, model, kernels, refined, (said, perf_counter() - start, version))
+    found = _assembled(
+        nip, model, kernels, refined, (reservations, perf_counter() - start, version)
+    )
     return found if asked or found.converged else None
 
 
@@ -103,33 +105,36 @@ def _solve_with_fallback(
             break
         simpler = SIMPLER.get(now.geometry)
         now = None if simpler is None else replace(now, geometry=simpler)
-    resting = [one for one in tried if _is_settled(one[2])]
-    model, kernels, refined = (resting or [one for one in tried if one[2]] or tried)[0]
-    left = [one.geometry for one, _, _ in tried[: [one for one, _, _ in tried].index(model)]]
-    return model, kernels, refined, simpler_geometry_reservations(left, model.geometry)
+    settled = [one for one in tried if _is_settled(one[2])]
+    model, kernels, refined = (settled or [one for one in tried if one[2]] or tried)[0]
+    models = [one for one, _, _ in tried]
+    unsolved = [one.geometry for one in models[: models.index(model)]]
+    return model, kernels, refined, simpler_geometry_reservations(unsolved, model.geometry)
 
 
-def _solution(
+def _assembled(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
     refined: Refined[PlateIterate],
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
-    said, seconds, version = record
+    reservations, seconds, version = record
     final = plate_round(refined)
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
-    said += compression_reservations(refined.figures) + curved_tension_reservations(nip, model)
-    said += validity_reservations(nip, model, final, strains)
+    reservations += compression_reservations(refined.figures) + curved_tension_reservations(
+        nip, model
+    )
+    reservations += validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(
         nip=nip,
         model=model,
         converged=converged,
         status=status,
-        reservations=consistent(said),
+        reservations=consistent(reservations),
         solver=refined.solver_info(seconds, version),
         final=final,
         kernels=kernels,

@@ -121,7 +121,8 @@ class PlateProblem:
     frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
-    rotation_influence : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise [1/MPa].
+    rotation_influence : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise
+        [1/MPa].
     """
 
     nip: Nip

@@ -19,7 +19,7 @@ FIRST_END_TOLERANCE, END_TOLERANCE = 0.5, 0.03
 """Allowed error of a zone end over tolerance times width, on the first mesh size and on others."""
 
 
-class ZoneSearch(Protocol[IterateT]):
+class SheetZoneSearch(Protocol[IterateT]):
     """A search for the zones of stick and slip in a nip with a sheet, for one model."""
 
     def start(self, half_width: float, count: int) -> IterateT:
@@ -49,7 +49,7 @@ class Formulation(Protocol[IterateT]):
         """The nip."""
         ...
 
-    def search(self, model: Model, kernels: PairKernels) -> ZoneSearch[IterateT]:
+    def search(self, model: Model, kernels: PairKernels) -> SheetZoneSearch[IterateT]:
         """Return the search for its zones."""
         ...
 

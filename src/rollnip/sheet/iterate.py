@@ -88,7 +88,7 @@ TermsT = TypeVar("TermsT", bound=LaggedTerms, covariant=True)
 
 
 @dataclass(frozen=True)
-class Iterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
+class SheetIterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
     """A solution for given zones of stick and slip, and how well the ends of these are placed.
 
     Attributes
@@ -121,5 +121,5 @@ class Iterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
         return self.problem.creeps(self.state, self.lagged)
 
 
-AnyIterate = Iterate[SideZones, InterfaceProblem, InterfaceSolution, LaggedTerms]
+AnyIterate = SheetIterate[SideZones, InterfaceProblem, InterfaceSolution, LaggedTerms]
 """The iterate of a membrane or of a plate."""

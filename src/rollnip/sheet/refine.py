@@ -23,7 +23,7 @@ from rollnip.sheet.formulation import (
     FIRST_SIZE,
     Formulation,
     IterateT,
-    ZoneSearch,
+    SheetZoneSearch,
 )
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import slip_works, torque_mismatch
@@ -217,7 +217,7 @@ def _excess(
 def _with_same_zones(
     formulation: Formulation[IterateT],
     model: Model,
-    search: ZoneSearch[IterateT],
+    search: SheetZoneSearch[IterateT],
     iterate: IterateT,
     history: list[SizeOfMesh],
     count: int,

@@ -34,7 +34,7 @@ from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
-from rollnip.sheet.iterate import Iterate
+from rollnip.sheet.iterate import SheetIterate
 from rollnip.sheet.lagged_terms import has_no_terms, interpolated
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
@@ -75,7 +75,7 @@ _MOST_ITERATIONS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 
 
-MembraneIterate = Iterate[MembraneZones, MembraneProblem, MembraneState, MembraneTerms]
+MembraneIterate = SheetIterate[MembraneZones, MembraneProblem, MembraneState, MembraneTerms]
 """The iterate of the search for a membrane."""
 
 
@@ -138,7 +138,7 @@ class MembraneSearch:
             start = interpolated_terms(iterate, problem)
             iterate = self._solve_on_mesh(problem, zones, start, steps, (near, misplacement))
             steps = iterate.steps
-            requested = _RequestedZones(iterate, self._slack)
+            requested = _ZonesByStates(iterate, self._slack)
             is_near = known <= _NEARLY_PLACED
             proposed = zones.moved(problem, iterate.state, requested, is_near=is_near)
             misplacement = proposed.distance(zones)
@@ -266,7 +266,7 @@ class MembraneSearch:
 
 
 @dataclass(frozen=True)
-class _RequestedZones:
+class _ZonesByStates:
     """Zones that follow from the nodal states a solution calls for, computed on demand.
 
     Attributes

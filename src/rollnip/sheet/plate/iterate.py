@@ -15,7 +15,7 @@ from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
-from rollnip.sheet.iterate import Iterate
+from rollnip.sheet.iterate import SheetIterate
 from rollnip.sheet.lagged_terms import interpolated
 from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
 from rollnip.sheet.plate.interface import SIGNS
@@ -25,7 +25,7 @@ from rollnip.sheet.plate.zones import PlateZones
 Array = NDArray[np.float64]
 
 
-PlateIterate = Iterate[PlateZones, PlateProblem, PlateState, PlateTerms]
+PlateIterate = SheetIterate[PlateZones, PlateProblem, PlateState, PlateTerms]
 
 
 def shear_over(iterate: PlateIterate) -> float:

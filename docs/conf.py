@@ -60,7 +60,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Path|NDArray|ArrayLike|Array|ComplexArray|Axes|Figure|Any|TypeAliasForwardRef)"),
     (r"py:.*", r"(enum\.IntEnum|abc\.ABC|concurrent\.futures\..*|tuple\[.*)"),
     # Types that modules hand to each other and no door offers.
-    (r"py:class", r"Refined|SheetAttempt|PlateAttempt"),
+    (r"py:class", r"Refined|MembraneIterate|PlateIterate"),
     (r"py:.*", r"rollnip\.\w+\.\w+\.\w+"),
     (r"py:.*", r"rollnip\..*\._\w+"),
 ]

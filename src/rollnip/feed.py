@@ -1,4 +1,4 @@
-"""How much the feed of a sheet depends on load, hardness, diameters, thicknesses and tensions."""
+"""Sensitivity of a sheet's feed to load, moduli, diameters, thicknesses and tensions."""
 
 from __future__ import annotations
 
@@ -35,23 +35,24 @@ _OF_SHEET = {
 
 @dataclass(frozen=True, slots=True)
 class FeedChange:
-    """Change of a sheet's feed where one quantity grows and all others stay.
+    """Sensitivity of a sheet's feed to one quantity, with all others held constant.
 
     Attributes
     ----------
     quantity : "load", "modulus of the upper covering", ...
-    path : key of the quantity in a case whose materials stand in the layers; of several layers
-        the key that holds them.
-    value : the present value of that key [mm, N, MPa], of a diameter the radius; nan for a
-        covering of several layers.
-    upper, lower : d(feed)/d ln(quantity) over either roller, `feed_upper` and `feed_lower`: times
-        0.01 it is the change of the feed where the quantity is 1 % larger.
-    per_turn : d ln(sheet fed in a turn of the upper roller)/d ln(quantity): what a diameter feeds
-        in addition, and otherwise the change of ``upper`` over 1 + feed.
-    error : of ``upper`` and ``lower``, the larger: errors of both solutions over the difference of
-        the quantity, and how far the feed bends between them; one that bends both ways, as where
-        a zone of slip appears, may be further off.
-    converged : whether all solutions behind it were verified.
+    path : key of the quantity in a case file whose materials are written in the layers; for several
+        layers, the key that contains them.
+    value : present value of that key [mm, N, MPa]; for a diameter the radius; nan for a covering of
+        several layers.
+    upper, lower : d(feed)/d ln(quantity) of `feed_upper` and `feed_lower`: 0.01 times this is the
+        change of the feed when the quantity grows by 1 %.
+    per_turn : d ln(length of sheet fed per turn of the upper roller)/d ln(quantity). For the
+        diameter of the upper roller this includes the longer circumference; otherwise it is
+        ``upper`` over 1 + feed.
+    error : larger of the errors of ``upper`` and ``lower``: the errors of both solutions divided by
+        the difference of the quantity, plus the curvature of the feed between them. Where the
+        curvature changes its sign, for instance where a slip zone appears, the error may be larger.
+    converged : whether all underlying solutions were verified.
     """
 
     quantity: str
@@ -72,31 +73,31 @@ def feed_sensitivity(
     cache: KernelCache | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[FeedChange, ...]:
-    """Return how the feed changes with each quantity of a nip with a sheet.
+    """Return the sensitivity of the feed to each quantity of a nip with a sheet.
 
-    Each quantity is made larger and smaller by ``share`` of it, all else as it is: what is
-    prescribed stays prescribed (the approach too, where that is given in place of the load). Zero
-    tensions and rollers that are flat are left out; so are moduli of materials other than
-    `Elastic`, `StandardLinearSolid` and `Prony`.
+    Each quantity is increased and decreased by the fraction ``share``, and the rest is held
+    constant: what is prescribed stays prescribed (including the approach, where it is given instead
+    of the load). Zero tensions and the radius of a flat roller are omitted, and so are moduli of
+    materials other than `Elastic`, `StandardLinearSolid` and `Prony`.
 
     Parameters
     ----------
     nip : with a sheet.
     model : as for `rollnip.solve`.
     share : relative change of each quantity, positive and at most 0.2.
-    cache : influence functions of solves before.
-    progress : called after each quantity with how many are done, and of how many.
+    cache : influence functions from earlier solves.
+    progress : called after each quantity with the number done and the total number.
 
     Returns
     -------
-    The changes, the largest of the upper roller's feed first.
+    The sensitivities, in descending order of the size of ``upper``.
 
     Raises
     ------
     InvalidInputError
-        where ``nip`` is none or has no sheet, or ``share`` lies outside its range.
+        where ``nip`` is not a `Nip` or has no sheet, or ``share`` lies outside its range.
     ConvergenceError
-        where a changed nip has no solution at all, or only one of another geometry.
+        where a changed nip has no solution at all, or only one with another geometry.
     """
     require_instance("nip", nip, Nip)
     if nip.sheet is None:
@@ -107,7 +108,7 @@ def feed_sensitivity(
     model = Model() if model is None else model
     cache = KernelCache() if cache is None else cache
     middle = _solved(nip, model, cache)
-    # All nips alike: whether bending counts is a matter of thresholds, and would make a jump.
+    # Fix whether bending is included: otherwise a threshold may be crossed and the feed jump.
     nip = replace(nip, sheet=replace(nip.sheet, bending=middle.sheet.bends))
     quantities, changes = list(_quantities(nip)), []
     for quantity, path, value, changed in quantities:
@@ -141,7 +142,7 @@ def _change(
         less, same, more = (getattr(one, name) for one in (low, middle.sheet, high))
         slopes.append((more - less) / (2.0 * share))
         unsure = (low.error[name] + high.error[name]) / (2.0 * share)
-        # Half the second difference: what the feed bends within one step.
+        # Half the second difference: the curvature of the feed within one step.
         errors.append(unsure + 0.5 * abs(more - 2.0 * same + less) / share)
     turned = 1.0 if path == "upper.radius" else 0.0
     return FeedChange(
@@ -160,7 +161,7 @@ _Quantity = tuple[str, str, float, Callable[[float], Nip]]
 
 
 def _quantities(nip: Nip) -> Iterator[_Quantity]:
-    """Yield name, key, value and nip with that times a factor, of all that the feed depends on."""
+    """Yield name, key, value and a function from a factor to the changed nip, for each quantity."""
     normal, sheet = nip.normal, nip.sheet
     assert sheet is not None
     if isinstance(normal, LineLoad):
@@ -186,7 +187,7 @@ def _quantities(nip: Nip) -> Iterator[_Quantity]:
 
 
 def _of_roller(nip: Nip, side: Side) -> Iterator[_Quantity]:
-    """Yield radius, thickness and modulus of one roller's covering."""
+    """Yield radius, thickness and modulus of one roller's covering, as `_quantities` does."""
     roller = getattr(nip, side)
     if isfinite(roller.radius):
         yield (
@@ -238,7 +239,7 @@ def _with_sheet(nip: Nip, name: str, factor: float) -> Nip:
 
 
 def _stiffer(material: Material, factor: float) -> Material | None:
-    """Return a material with all its moduli times a factor; None where it is of another kind."""
+    """Return a material with all its moduli times a factor; None for other kinds of material."""
     if isinstance(material, Elastic):
         return replace(material, modulus=factor * material.modulus)
     if isinstance(material, StandardLinearSolid):

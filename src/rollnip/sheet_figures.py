@@ -1,6 +1,6 @@
-"""The registry of figures of a sheet in the nip, beside those of `rollnip.figures`.
+"""Registry of the figures of a sheet in the nip, in addition to those of `rollnip.figures`.
 
-A result has them in its table "sheet" where there is a sheet.
+A result lists them in its table "sheet" where the nip has a sheet.
 """
 
 from __future__ import annotations
@@ -15,22 +15,22 @@ __all__ = ["PULL_FIGURES", "SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
 
 
 class SheetFigure(Figure):
-    """A figure of the sheet in a nip: an attribute of ``solution.sheet``; None without a sheet."""
+    """A figure of the sheet, read from an attribute of ``solution.sheet``; None without a sheet."""
 
     __slots__ = ()
 
     @property
     def attribute(self) -> str:
-        """Attribute of the sheet's result."""
+        """Name of the attribute of the sheet's result."""
         return self.key.rpartition(".")[2]
 
     def value(self, solution: Any) -> float | None:
-        """The figure of a solution, in its base unit; None where there is no sheet."""
+        """Return the value of the figure in its base unit; None where there is no sheet."""
         sheet = solution.sheet
         return None if sheet is None else _finite(getattr(sheet, self.attribute))
 
     def error(self, solution: Any) -> float | None:
-        """Estimated error of the figure, in its base unit; None where none is claimed."""
+        """Return the estimated error of the figure in its base unit; None where none is claimed."""
         sheet = solution.sheet
         return None if sheet is None else _finite(sheet.error.get(self.attribute))
 
@@ -199,7 +199,7 @@ _SHEET = (
 )
 
 SHEET_FIGURES: Mapping[str, Figure] = {one.key: one for one in _SHEET}
-"""The figures of a sheet by key; a result has them where there is a sheet."""
+"""Figures of a sheet by key; a result has them where the nip has a sheet."""
 
 PULL_FIGURES: Mapping[str, Figure] = by_key(
     Figure(
@@ -207,7 +207,7 @@ PULL_FIGURES: Mapping[str, Figure] = by_key(
     ),
     Figure("largest", "largest pull that holds", "line load", "Pull above which the sheet slips."),
 )
-"""The pulls on the sheet between which it does not slip through the nip, by key."""
+"""Limits of the pull on the sheet between which it does not slip through the nip, by key."""
 
 SHEET_PROFILES: Mapping[str, Figure] = {
     one.key: one
@@ -241,4 +241,4 @@ SHEET_PROFILES: Mapping[str, Figure] = {
         ),
     )
 }
-"""The distributions of a sheet over x by key."""
+"""Distributions of the sheet's quantities over x, by key."""

@@ -1,4 +1,4 @@
-"""A sheet that runs between two rollers: what it is made of, its tensions and its friction."""
+"""The sheet that runs between two rollers: elastic constants, thickness, tensions and friction."""
 
 from __future__ import annotations
 
@@ -23,26 +23,28 @@ from rollnip.materials.base import checked_modulus
 )
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
-    """A sheet in the nip: paper, film, foil, board or belt; elastic.
+    """An elastic sheet in the nip: paper, film, foil, board or a belt.
 
     Parameters
     ----------
     thickness :
         h [mm], positive.
     modulus :
-        Young's modulus E in the plane of the sheet, along the nip [MPa], positive.
+        in-plane Young's modulus E along the direction of travel [MPa], positive.
     poisson :
         Poisson's ratio, in (-1, 0.5].
     modulus_thickness :
-        modulus E_z across the thickness [MPa], positive; None: that in the plane. That of paper
-        is about a hundredth of it.
+        modulus E_z across the thickness [MPa], positive; None: equal to ``modulus``. For paper it
+        is about a hundredth of the in-plane modulus.
     tension_in, tension_out :
         tension per width on the inlet side (x > 0) and on the outlet side [N/mm], not negative.
     friction_upper, friction_lower :
-        Coulomb coefficient of the sheet on either roller, positive; None: that of the nip.
+        Coulomb friction coefficients between the sheet and each roller, positive; None: that of
+        the nip.
     bending :
-        whether its stiffness against bending is counted; False: it bends freely; None: counted
-        where it acts over more than a twentieth of the nip width, if that solution is verified.
+        whether the sheet's bending stiffness is included. False: it is neglected. None: it is
+        included where it acts over more than a twentieth of the nip width, provided that this
+        solution can be verified.
 
     Raises
     ------
@@ -85,12 +87,12 @@ class Sheet:
 
     @classmethod
     def usual(cls, name: str) -> Sheet:
-        """Return a usual sheet of `SHEETS`, such as "office paper", without tension.
+        """Return a typical sheet from `SHEETS`, such as "office paper", without tension.
 
         Raises
         ------
         InvalidInputError
-            where there is none of this name.
+            where `SHEETS` has no sheet of this name.
         """
         if name not in SHEETS:
             known = ", ".join(SHEETS)
@@ -99,37 +101,37 @@ class Sheet:
 
     @property
     def stretch_by_tension(self) -> float:
-        """Strain per tension at constant width, (1 - nu^2)/(E h) [mm/N]."""
+        """Strain per tension at constant width (plane strain), (1 - nu^2)/(E h) [mm/N]."""
         return (1.0 - self.poisson**2) / (self.modulus * self.thickness)
 
     @property
     def stretch_by_pressure(self) -> float:
         """Strain along the nip per pressure, nu (1 + nu)/E [1/MPa].
 
-        The sheet becomes thinner by as much per tension [mm/(N/mm)], as Maxwell and Betti's
-        theorem of reciprocity demands.
+        By Maxwell-Betti reciprocity it is also the loss of thickness per tension [mm/(N/mm)].
         """
         return self.poisson * (1.0 + self.poisson) / self.modulus
 
     @property
     def squeeze(self) -> float:
-        """Loss of thickness per pressure, h (1 - nu^2)/E_z [mm/MPa]."""
+        """Loss of thickness per pressure on both faces, h (1 - nu^2)/E_z [mm/MPa]."""
         across = self.modulus if self.modulus_thickness is None else self.modulus_thickness
         return self.thickness * (1.0 - self.poisson**2) / across
 
     @property
     def shear_by_thickness(self) -> float:
-        """Thickness over the shear modulus E/(2 (1 + nu)) [mm/MPa].
+        """Thickness over the shear modulus, h/G with G = E/(2 (1 + nu)) [mm/MPa].
 
-        Under shears q_u and q_l its faces lie (q_u/3 + q_l/6) and (q_u/6 + q_l/3) times this from
-        the mean of the section: the shear stress goes linearly from face to face. So it is in a
-        membrane, of which both faces lie on rollers everywhere.
+        Shears q_u and q_l on the faces displace them by (q_u/3 + q_l/6) and (q_u/6 + q_l/3) times
+        this value relative to the mean of the section, because the shear stress varies linearly
+        across the thickness. This applies to a membrane, whose two faces lie on the rollers over
+        the same contact.
         """
         return 2.0 * (1.0 + self.poisson) * self.thickness / self.modulus
 
     @property
     def sheared(self) -> float:
-        """Shift of a face per shear, h (1 - nu^2)/E, as `squeeze` along the sheet [mm/MPa]."""
+        """Tangential displacement of a face per shear, h (1 - nu^2)/E; cf. `squeeze` [mm/MPa]."""
         return self.thickness * (1.0 - self.poisson**2) / self.modulus
 
     @property
@@ -152,25 +154,26 @@ SHEETS: Mapping[str, Sheet] = {
     "aluminium foil": Sheet(thickness=0.012, modulus=70e3, poisson=0.3),
     "steel belt": Sheet(thickness=0.2, modulus=200e3, poisson=0.3),
 }
-"""Usual sheets along their machine direction, without tension: a start where nothing is measured.
+"""Typical sheets along their machine direction, without tension; a start where none is measured.
 
-Vary with `dataclasses.replace`; `SHEET_SOURCES` says which values a source states, which are
-typical without one, and what is usual.
+Vary them with `dataclasses.replace`. `SHEET_SOURCES` gives the source of each value, the values
+that are typical but have no source, and the usual ranges.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class SheetSource:
-    """Source of the values of a usual sheet, and the range that is usual.
+    """Sources of the values of a typical sheet, and the usual ranges.
 
     Attributes
     ----------
-    thickness, modulus : lowest and highest usual value [mm, MPa]; the modulus along the machine
-        direction.
-    modulus_thickness : the same across the thickness; None where that in the plane is taken.
+    thickness, modulus : lowest and highest usual value [mm, MPa]; the modulus is that along the
+        machine direction.
+    modulus_thickness : the same for the modulus across the thickness; None where the in-plane
+        modulus is used.
     text : what the sources state.
-    typical : what is typical of such a sheet and comes from none of these sources; an "end" is
-        one of its range.
+    typical : quantities whose values are typical of such a sheet but are stated by none of the
+        sources; an "end" is one end of the usual range.
     """
 
     thickness: tuple[float, float]
@@ -257,7 +260,7 @@ SHEET_SOURCES: Mapping[str, SheetSource] = {
 }
 """Sources, usual ranges and typical values of `SHEETS`, by name.
 
-Friction is no property of a sheet alone. TAPPI T 549 slides paper on itself, ISO 15359 paper and
-board, ISO 8295 and ASTM D 1894 film on itself or on another substance: slide the sheet on the
-surface that the roller has.
+Friction is not a property of the sheet alone. TAPPI T 549 measures paper against itself, ISO 15359
+paper and board, ISO 8295 and ASTM D 1894 film against itself or another material; measure the sheet
+against the surface of the roller.
 """

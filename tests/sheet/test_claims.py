@@ -10,12 +10,12 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
-from rollnip.sheet.kind import CLOSELY
-from rollnip.sheet.membrane import Membrane
+from rollnip.sheet.formulation import END_TOLERANCE
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.membrane.formulation import MembraneFormulation
+from rollnip.sheet.membrane.search import MembraneSearch
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.said import relative_errors
-from rollnip.sheet.search import SheetSearch
-from rollnip.sheet.system import SIGNS
+from rollnip.sheet.status import relative_errors
 
 ALLOWED = 3.0  # times the claim, as for a bare nip (tests/properties)
 
@@ -36,13 +36,13 @@ def _errors(number, geometry=None):
         return None
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
-    search = SheetSearch(case.nip, model, solution.kernels)
-    fine = search.placed(
-        refined.attempt.zones, round(2.2 * solution.solver.elements), refined.attempt, CLOSELY
+    search = MembraneSearch(case.nip, model, solution.kernels)
+    fine = search.settle_zones(
+        refined.iterate.zones, round(2.2 * solution.solver.elements), refined.iterate, END_TOLERANCE
     )
     if not fine.settled:
         return None
-    (truth,) = Membrane(case.nip).figures(fine, model.geometry)
+    (truth,) = MembraneFormulation(case.nip).figures(fine, model.geometry)
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale
@@ -109,12 +109,12 @@ def test_slip_ends_where_its_creep_first_comes_to_zero():
     2 % of the width, and the largest tension 3.5 times its claim off.
     """
     solution = rn.solve(random_case(104039).nip, rn.Model(geometry="curved"))
-    attempt = solution.refined.attempt
-    signs = SIGNS.take(attempt.state.states_lower)
+    iterate = solution.refined.iterate
+    signs = SIGNS.take(iterate.state.states_lower)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
-    back = slips & (signs * attempt.creeps[1] < 0.0)[:-1]
+    back = slips & (signs * iterate.creeps[1] < 0.0)[:-1]
     assert not np.any(back[:-1] & back[1:])  # one node may, at an end between two nodes
-    lengths = np.diff(attempt.zones.lower.breaks) / attempt.zones.width
+    lengths = np.diff(iterate.zones.lower.breaks) / iterate.zones.width
     assert lengths[1] > 0.03  # of the short zone of stick; it was 0.023
 
 
@@ -207,10 +207,10 @@ def _errors_below(number):
     if not solution.converged:
         return None
     # a twentieth of the tolerance; not where refinement stops, but matrices are shared
-    attempt, model = solution.refined.attempt, replace(solution.model, tolerance=5e-5)
+    iterate, model = solution.refined.iterate, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
     search = PlateSearch(case.nip, model, solution.kernels)
-    fine = search.placed(attempt.zones, count, attempt, CLOSELY)
+    fine = search.settle_zones(iterate.zones, count, iterate, END_TOLERANCE)
     if not fine.settled:
         return None
     mesh, sheet = fine.problem.meshes[1], solution.sheet

@@ -10,7 +10,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import zone_meshes
 from rollnip.rolling.corrections import PairCorrection
-from rollnip.sheet import search
+from rollnip.sheet.membrane import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -21,7 +21,7 @@ def counted(monkeypatch):
     meshes = {"bare": [], "sheet": []}
     for module, name, kind in (
         (zone_meshes, "mesh_on", "bare"),
-        (search, "sheet_mesh_on", "sheet"),
+        (search, "membrane_mesh_on", "sheet"),
     ):
         assemble = getattr(module, name)
 
@@ -60,13 +60,13 @@ def test_two_sizes_of_mesh_suffice_for_half_of_the_nips_without_memory():
 
 
 def test_what_never_settles_is_given_up_after_three_sizes_of_mesh(monkeypatch):
-    sizes, placed = [], search.SheetSearch.placed
+    sizes, placed = [], search.MembraneSearch.settle_zones
 
     def restless(self, zones, count, *more):
         sizes.append(count)
         return replace(placed(self, zones, count, *more), settled=False)
 
-    monkeypatch.setattr(search.SheetSearch, "placed", restless)
+    monkeypatch.setattr(search.MembraneSearch, "settle_zones", restless)
     assert not rn.solve(random_case(17).nip, rn.Model(geometry="curved")).converged
     assert len(sizes) == 3
 

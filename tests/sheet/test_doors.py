@@ -27,10 +27,10 @@ CASE = {
 def test_slip_shares_are_those_of_the_zones(pulled):
     for side, zones in (("upper", pulled.zones), ("lower", pulled.sheet.zones_lower)):
         width = pulled.nip_width if side == "upper" else pulled.sheet.nip_width_lower
-        slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
-        assert 0.0 < slipping < width
+        settled_slip = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
+        assert 0.0 < settled_slip < width
         share = getattr(pulled.sheet, f"slip_share_{side}")
-        assert share == pytest.approx(slipping / width, rel=1e-12)
+        assert share == pytest.approx(settled_slip / width, rel=1e-12)
 
 
 def test_feeds_are_read_from_solutions_and_rows(pulled):

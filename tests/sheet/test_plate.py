@@ -13,10 +13,10 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.contact import Layout, State
-from rollnip.sheet.common import sheet_verdict
-from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.solved import _verdict
+from rollnip.sheet.checks import sheet_verdict
+from rollnip.sheet.plate.solve import _verdict
 from rollnip.sheet.plate.zones import PlateZones
+from rollnip.sheet.secant import SecantSteps
 
 HERE = Path(__file__).parents[1]
 STORED = json.loads((HERE / "data" / "plate_direct.json").read_text(encoding="utf-8"))
@@ -253,11 +253,11 @@ def test_a_thin_sheet_on_a_bare_roller_is_verified(thickness):
 
 def test_zones_of_a_contact_in_pieces_are_no_zones_to_go_on_with():
     solution = rn.solve(nip_with(replace(BOARD, tension_in=0.0)), LINEAR)
-    attempt = solution.refined.attempt
-    states = tuple(one.copy() for one in attempt.state.states)
-    assert attempt.zones.found(attempt.problem, attempt.state) is not None
+    iterate = solution.refined.iterate
+    states = tuple(one.copy() for one in iterate.state.states)
+    assert iterate.zones.found(iterate.problem, iterate.state) is not None
     states[1][states[1].size // 2] = State.FREE
-    assert attempt.zones.found(attempt.problem, replace(attempt.state, states=states)) is None
+    assert iterate.zones.found(iterate.problem, replace(iterate.state, states=states)) is None
 
 
 def _with_share(nip, share):
@@ -343,7 +343,7 @@ def test_slip_both_ways_below_a_stiff_sheet_is_found(tolerance):
 
 def test_a_sheet_without_pressure_on_one_side_did_not_settle():
     # the violation of conditions is infinite there, which no sentence should say
-    refined = SimpleNamespace(attempt=SimpleNamespace(settled=False), residual=inf)
+    refined = SimpleNamespace(iterate=SimpleNamespace(settled=False), residual=inf)
     is_met, said = sheet_verdict(nip_with(BOARD), LINEAR, refined, None)
     assert not is_met
     assert "no pressure was found on one of them" in said
@@ -371,8 +371,8 @@ def test_random_plates_that_were_not_verified(number):
 
 
 def test_a_plate_that_is_not_verified_says_why():
-    attempt = SimpleNamespace(settled=False, misplacement=2e-3)
-    refined = SimpleNamespace(attempt=attempt, residual=1e-3)
+    iterate = SimpleNamespace(settled=False, misplacement=2e-3)
+    refined = SimpleNamespace(iterate=iterate, residual=1e-3)
     is_met, said = _verdict(nip_with(BOARD), LINEAR, refined, (None, None))
     assert not is_met
     assert "did not settle (they still moved by 0.2 % of the width)" in said
@@ -391,9 +391,9 @@ def test_nodes_crowd_opposite_edges_and_the_begin_of_stick():
 
 def test_an_end_that_is_asked_to_and_fro_goes_where_the_secant_says():
     # what a solution asks for is five times as far as the end is off: 0.2 is where it belongs
-    moves, here = Moves[PlateZones](), 0.0
+    secants, here = SecantSteps[PlateZones](), 0.0
     for _ in range(3):
         zones = PlateZones(*(Layout(np.array([here, 9.0]), np.array([1], dtype=np.int8)),) * 2)
         asked = zones.with_ends(zones.ends + 5.0 * np.array([0.2 - here, 0.0] * 2))
-        here = float(moves.next(zones, asked).ends[0])
+        here = float(secants.next(zones, asked).ends[0])
     assert here == pytest.approx(0.2, abs=1e-12)

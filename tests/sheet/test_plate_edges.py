@@ -10,8 +10,8 @@ from sheet_nips import RIGID, nip_with, paper
 import rollnip as rn
 from rollnip.contact import Layout, State, cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
-from rollnip.sheet.plate.attempt import added_to_peaks
-from rollnip.sheet.plate.sides import highest, side_mesh
+from rollnip.sheet.plate.interface import interface_mesh, interface_peak
+from rollnip.sheet.plate.iterate import added_to_peaks
 from rollnip.sheet.plate.zones import PlateZones
 
 
@@ -21,13 +21,13 @@ def test_a_peak_on_few_elements_is_that_of_their_cubics(elements, lean):
     kernels = pair_kernels(nip_with(paper(bending=True)), "linear")
     counts = np.array([elements])
     nodes = cosine_nodes(np.array([0.0, 2.0]), counts)
-    mesh = side_mesh(nodes, subdivided(nodes, counts), kernels, 0)
+    mesh = interface_mesh(nodes, subdivided(nodes, counts), kernels, 0)
 
     def pressure(x):
         return np.sqrt(np.maximum(x * (2.0 - x), 0.0)) * (1.0 + lean * 0.25 * x**2)
 
     place = minimize_scalar(lambda x: -pressure(x), bounds=(0.0, 2.0), options={"xatol": 1e-9}).x
-    found, at = highest(mesh, pressure(mesh.inner))
+    found, at = interface_peak(mesh, pressure(mesh.inner))
     # the cubics at the finer nodes are no higher, and the highest is of the fourth order
     between = mesh.between(pressure(mesh.inner))
     assert found >= between.max() * (1.0 - 1e-12)
@@ -40,17 +40,17 @@ def test_a_peak_beside_a_misplaced_edge_is_not_taken():
     # edge that lay inwards by delta, less than the tolerance allows.
     solution = rn.solve(nip_with(paper(bending=True), lower=RIGID), rn.Model(geometry="linear"))
     assert solution.converged
-    attempt = solution.refined.attempt
-    zones = attempt.zones
-    assert added_to_peaks(attempt, zones) == 0.0
-    mesh, lower = attempt.problem.meshes[1], zones.lower
+    iterate = solution.refined.iterate
+    zones = iterate.zones
+    assert added_to_peaks(iterate, zones) == 0.0
+    mesh, lower = iterate.problem.meshes[1], zones.lower
     away = mesh.inner[-1] - mesh.inner[:-1]
-    wrong = attempt.state.pressure[1].copy()
+    wrong = iterate.state.pressure[1].copy()
     wrong[:-1] += 2.0 * wrong.max() * np.sqrt(away[-1] / away)
-    state = replace(attempt.state, pressure=(attempt.state.pressure[0], wrong))
+    state = replace(iterate.state, pressure=(iterate.state.pressure[0], wrong))
     moved = np.append(lower.breaks[:-1], mesh.inner[-1] + away[-1])
     asked = PlateZones(zones.upper, Layout(moved, lower.states))
-    added = added_to_peaks(replace(attempt, state=state), asked)
+    added = added_to_peaks(replace(iterate, state=state), asked)
     # sqrt(y) + delta/(2 sqrt(y)) at y = delta
     assert added == pytest.approx(1.0 / 3.0, rel=1e-9)
 

@@ -13,8 +13,8 @@ import rollnip as rn
 from rollnip.contact import cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
 from rollnip.sheet.plate.bending import Plate
-from rollnip.sheet.plate.sides import side_mesh
-from rollnip.sheet.plate.spread import Spread, about
+from rollnip.sheet.plate.interface import interface_mesh
+from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 
 LINEAR = rn.Model(geometry="linear")
 BOARD = replace(rn.Sheet.usual("board"), bending=True, tension_in=0.3, tension_out=0.2)
@@ -56,7 +56,7 @@ def test_the_kernel_solves_the_equation_of_a_plate(tension):
         start = plate.stiffness * _kernel(plate, 0.0)[2] - tension * _kernel(plate, 0.0)[0]
         for x in (0.05, 0.7, 3.0):
             height, _, bent = _kernel(plate, x)
-            parabola = 0.5 * x**2 / plate.righting
+            parabola = 0.5 * x**2 / plate.righting_moment
             line = plate.stiffness * bent - tension * (height - parabola)
             assert line - start == pytest.approx(0.5 * x, rel=1e-6)
 
@@ -72,7 +72,7 @@ def tractions():
     """Tractions on one interface: their spread, and the same as a function."""
     kernels = pair_kernels(nip_with(BOARD), "linear")
     nodes = cosine_nodes(np.array([-1.1, 0.9]), np.array([12]), (1.0,))
-    mesh = side_mesh(nodes, subdivided(nodes, np.array([12]), (1.0,)), kernels, 0)
+    mesh = interface_mesh(nodes, subdivided(nodes, np.array([12]), (1.0,)), kernels, 0)
     values = 0.4 * np.sqrt((mesh.inner + 1.1) * (0.9 - mesh.inner)) + 0.1 * mesh.inner
     acting = np.concatenate([[0.0], mesh.acting(values), [0.0]])
     return mesh, values, lambda s: np.interp(s, mesh.fine.nodes, acting, left=0.0, right=0.0)
@@ -85,9 +85,9 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
     # interface: Gauss points took the kinks of K for smooth, which made pressures waver by 1e-3.
     mesh, values, line = tractions
     plate = replace(Plate.of(BOARD), tension=tension)
-    one = Spread.on(mesh, BOARD, plate).of(values)
-    beyond = one.moments_beyond(np.array([x]))
-    found = [float(part[0, 0]) for part in one.bent(np.array([x]), beyond)]
+    one = PiecewiseLoads.on(mesh, BOARD, plate).of(values)
+    tail_moments = one.tail_moments_at(np.array([x]))
+    found = [float(part[0, 0]) for part in one.deflection(np.array([x]), tail_moments)]
     pieces = np.sort(np.append(mesh.fine.nodes, np.clip(x, -1.1, 0.9)))
 
     def integral(function):
@@ -104,7 +104,7 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
     assert found == pytest.approx(wanted, rel=1e-9)
     for k, factor in enumerate((1.0, 1.0, 0.5, 1.0 / 6.0)):
         ahead = integral(lambda s, k=k, c=factor: c * max(s - x, 0.0) ** k if s > x else 0.0)
-        at_k = float(about(np.array([x]), beyond, k)[0, 0])
+        at_k = float(moments_about(np.array([x]), tail_moments, k)[0, 0])
         assert at_k == pytest.approx(ahead, rel=1e-9, abs=1e-13)
 
 
@@ -120,10 +120,10 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
     # phi that vanishes far away, and of couple and force of its curved path; psi is the rotation of
     # the sections
     assert pulled.converged
-    attempt = pulled.refined.attempt
-    problem, state = attempt.problem, attempt.state
+    iterate = pulled.refined.iterate
+    problem, state = iterate.problem, iterate.state
     x = np.linspace(-12.0, 12.0, 12001)
-    curved = attempt.lagged.curved
+    curved = iterate.lagged.curved
     rotation = problem.rotation_at(state, x, curved)
     stiffness, tension = BOARD.bending_stiffness, 0.25
     for middle, length in ((0.3, 1.1), (-2.0, 2.5), (3.1, 2.0)):
@@ -155,22 +155,22 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
 
 
 def test_forces_on_the_sheet_and_their_moment_balance(pulled):
-    attempt = pulled.refined.attempt
-    problem, state = attempt.problem, attempt.state
+    iterate = pulled.refined.iterate
+    problem, state = iterate.problem, iterate.state
     force = moment = 0.0
     for side, sign in ((0, -1.0), (1, 1.0)):
-        mesh, one = problem.meshes[side], problem.spreads[side]
+        mesh, one = problem.meshes[side], problem.loads[side]
         force += sign * float(mesh.weights @ state.pressure[side])
         moment += sign * float(one.moment @ state.pressure[side])
         moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])
-    righting = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
-    curved = attempt.lagged.curved
+    righting_moment = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
+    curved = iterate.lagged.curved
     if curved is not None:
-        force, moment = force + curved.whole, moment + curved.moment
+        force, moment = force + curved.total, moment + curved.moment
     # lagged terms have changed once more since
     least = 1e-12 if curved is None else 1e-6
     assert force == pytest.approx(0.0, abs=least * pulled.load)
-    assert moment == pytest.approx(righting * state.rotation, abs=max(least, 1e-10))
+    assert moment == pytest.approx(righting_moment * state.rotation, abs=max(least, 1e-10))
     # far away it runs along the x axis again, both sides parallel
     far = problem.rotation_at(state, np.array([-400.0, 400.0]), curved)
     assert far == pytest.approx(0.0, abs=10.0 * max(least, 1e-10))

@@ -5,14 +5,14 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.plate.kind import Bending
+from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.search import PlateSearch
 
 NARROW = 19020  # on a bare roller, where its contact is a quarter as wide as the sheet is thick
 
 
 @pytest.fixture(scope="module")
-def attempt():
+def iterate():
     """A search, and the solution on meshes of a size that places ends closely."""
     case = random_case(NARROW, bending=True)
     assert case.geometry == "linear"
@@ -20,38 +20,40 @@ def attempt():
     found = rn.solve(case.nip, model)
     assert found.nip_width < 0.25 * case.nip.sheet.thickness
     search = PlateSearch(case.nip, model, found.kernels)
-    return lambda count: search.placed(
-        found.refined.attempt.zones, count, found.refined.attempt, 0.01
+    return lambda count: search.settle_zones(
+        found.refined.iterate.zones, count, found.refined.iterate, 0.01
     ), search
 
 
-def figures(attempt):
-    return Bending(attempt.problem.nip).figures(attempt, "linear")[0]
+def figures(iterate):
+    return PlateFormulation(iterate.problem.nip).figures(iterate, "linear")[0]
 
 
-def test_the_loss_of_friction_hardly_feels_where_slip_begins(attempt):
+def test_the_loss_of_friction_hardly_feels_where_slip_begins(iterate):
     """Before, the slip beside a misplaced transition was lost: 1 % for .1 % of the width."""
-    solved, search = attempt
+    solved, search = iterate
     right = solved(51)
     loss = figures(right).friction_upper
     for off in (-3e-3, -1e-3, 1e-3, 3e-3):
         ends = right.zones.ends.copy()
         ends[1] += off * right.zones.upper.width
-        moved, _ = search._on_mesh(right.zones.with_ends(ends), (51, {}), (1e-9, 1e-9), right)
+        moved, _ = search._solve_with_zones(
+            right.zones.with_ends(ends), (51, {}), (1e-9, 1e-9), right
+        )
         assert figures(moved).friction_upper == pytest.approx(loss, rel=2e-3)
 
 
-def test_a_contact_narrower_than_the_sheet_is_felt_at_both_of_its_edges(attempt):
+def test_a_contact_narrower_than_the_sheet_is_felt_at_both_of_its_edges(iterate):
     """With nodes of the wide contact at one edge alone the creepage kept an error of 1e-3."""
-    solved, _ = attempt
+    solved, _ = iterate
     coarse, middle, fine = (figures(solved(count)).creepage_upper for count in (20, 51, 131))
     assert coarse == pytest.approx(fine, rel=5e-4)
     assert middle == pytest.approx(fine, rel=1e-4)
 
 
-def test_the_largest_tension_is_found_between_nodes(attempt):
+def test_the_largest_tension_is_found_between_nodes(iterate):
     """At the nodes alone .1 % is left of it on twenty elements."""
-    solved, _ = attempt
+    solved, _ = iterate
     found = solved(20)
     here = figures(found)
     lower, upper = (np.array(found.zones.edges).min(), np.array(found.zones.edges).max())

@@ -12,7 +12,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip._results.records import DeformedSurfaces
 from rollnip.sheet.bending import bending_length, spreading_length
-from rollnip.sheet.freely import wrapped_length
+from rollnip.sheet.neglected_bending import wrapped_length
 
 LINEAR = rn.Model(geometry="linear")
 ROUGH = rn.Model(geometry="linear", tolerance=1e-2)

@@ -10,10 +10,10 @@ from sheet_nips import SOFT, nip_with, paper
 import rollnip as rn
 from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
-from rollnip.sheet.common import sheet_verdict
+from rollnip.sheet.checks import sheet_verdict
 from rollnip.sheet.figures import SheetFigures, scales
-from rollnip.sheet.membrane import Membrane
-from rollnip.sheet.refine import with_errors_of_powers
+from rollnip.sheet.membrane.formulation import MembraneFormulation
+from rollnip.sheet.refine import with_power_errors
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
 
@@ -137,15 +137,15 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     refined = solution.refined
     claimed = refined.errors.friction_upper
     assert refined.figures.friction_upper > 10.0 * claimed
-    attempt = refined.attempt
-    ahead = replace(attempt.state, creepage=-attempt.state.creepage - 0.1)
-    kind = Membrane(solution.nip)
-    turned = with_errors_of_powers(
-        kind, replace(refined, attempt=replace(attempt, state=ahead)), "linear"
+    iterate = refined.iterate
+    ahead = replace(iterate.state, creepage=-iterate.state.creepage - 0.1)
+    kind = MembraneFormulation(solution.nip)
+    turned = with_power_errors(
+        kind, replace(refined, iterate=replace(iterate, state=ahead)), "linear"
     ).errors
-    other = replace(attempt.state, creepage=-attempt.state.creepage + 0.1)
-    back = with_errors_of_powers(
-        kind, replace(refined, attempt=replace(attempt, state=other)), "linear"
+    other = replace(iterate.state, creepage=-iterate.state.creepage + 0.1)
+    back = with_power_errors(
+        kind, replace(refined, iterate=replace(iterate, state=other)), "linear"
     ).errors
     assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed
     assert turned.friction_lower == refined.errors.friction_lower
@@ -246,7 +246,7 @@ def test_the_verdict_asks_for_the_creepage_on_either_side(pulled, place, side):
     refined = pulled.refined
     values = refined.errors.values.copy()
     values[place] = 3.0 * pulled.model.tolerance * scales(pulled.nip, refined.figures)[place]
-    worse = replace(refined, errors_on_sides=(SheetFigures(values),))
+    worse = replace(refined, errors_by_side=(SheetFigures(values),))
     assert sheet_verdict(pulled.nip, pulled.model, refined, pulled.final)[0]
     is_met, status = sheet_verdict(pulled.nip, pulled.model, worse, pulled.final)
     assert not is_met

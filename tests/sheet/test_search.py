@@ -5,7 +5,7 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet import solved
+from rollnip.sheet import one_geometry
 
 
 def test_paper_pulled_against_a_bare_roller_is_solved():
@@ -64,6 +64,6 @@ def test_a_sheet_that_may_not_resist_bending_and_has_no_solution_is_told_to(monk
     def without_solution(*_):
         raise np.linalg.LinAlgError("no size of mesh has a solution")
 
-    monkeypatch.setattr(solved, "refine", without_solution)
+    monkeypatch.setattr(one_geometry, "refine", without_solution)
     with pytest.raises(rn.ConvergenceError, match="bending freely was found; leave `bending` out"):
         rn.solve(random_case(0).nip, rn.Model(geometry="curved"))

@@ -1,4 +1,4 @@
-"""How badly an interface of a sheet violates its conditions, whether the sheet bends or not."""
+"""Residuals of the contact conditions on the interfaces of a membrane or a plate."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from rollnip._largest import largest
 from rollnip.contact import ContactState, State
 from rollnip.nip import Nip
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.attempt import AnyAttempt
-from rollnip.sheet.system import SIGNS
+from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 
 OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
-"""Places beyond an edge where overlap is looked for, over the width."""
-_OF_SLOPE = 0.05  # of the nip's slope: the least creepage that slip is measured by
+"""Distances beyond an edge at which overlap is checked, over the width."""
+_OF_SLOPE = 0.05  # of the nip's slope: least creepage against which slip is measured
 
 
-def violation(attempt: AnyAttempt) -> float:
-    """Return how badly a solution violates the conditions of friction, relative.
+def violation(iterate: AnyIterate) -> float:
+    """Return the residual of the friction conditions, relative; the larger of both interfaces.
 
-    Slip is measured by the creepage, or a twentieth of the nip's slope if more.
+    Slip is measured against the creepage, or a twentieth of the nip's slope if that is larger.
     """
-    problem, state = attempt.problem, attempt.state
-    slope = 0.5 * attempt.zones.width * problem.nip.curvature
+    problem, state = iterate.problem, iterate.state
+    slope = 0.5 * iterate.zones.width * problem.nip.curvature
     scale = max(_OF_SLOPE * slope, abs(sum(state.creepages)))
-    sides = zip(problem.meshes, attempt.creeps, problem.frictions, strict=True)
+    sides = zip(problem.meshes, iterate.creeps, problem.frictions, strict=True)
     return largest(
         *(
             _violation_on(mesh, state.side(side), creep, friction, scale)
@@ -41,11 +41,11 @@ def violation(attempt: AnyAttempt) -> float:
 def _violation_on(
     mesh: Mesh, state: ContactState, creep: Array, friction: float, creepage: float
 ) -> float:
-    """Return how badly one interface violates the conditions of friction, relative.
+    """Return the residual of the friction conditions on one interface, relative.
 
-    The parts are the traction that a piece in stick carries beyond the traction bound, over what
-    friction carries at most; and slip with its own shear: the distance slipped so in a piece, over
-    the width times ``creepage``. ``creep``: of the intervals, (n,) [mm].
+    It is the larger of two parts: the traction that a run of sticking nodes carries beyond its
+    bound, over the largest traction that friction carries; and the distance slipped along its own
+    shear in a run, over the width times ``creepage``. ``creep``: of the intervals, (n,) [mm].
     """
     load = float(mesh.weights @ state.pressure)
     if not load > 0.0:
@@ -63,9 +63,10 @@ def _violation_on(
 def violation_outside(
     nip: Nip, gap: Array, pressure: Array, width: float, approach: float
 ) -> float:
-    """Return how far surfaces and sheet overlap beside an interface, and tension, relative.
+    """Return the overlap of surfaces and sheet beside an interface, or tensile pressure, relative.
 
-    Over the approach, or the depth of the gap at the edge; over the highest pressure.
+    Overlap is relative to the approach, or to the depth of the gap at the edge if that is larger;
+    tensile pressure to the peak pressure.
     """
     depth = 0.125 * nip.curvature * width**2
     if not nip.has_half_space:
@@ -76,7 +77,7 @@ def violation_outside(
 
 
 def _longest_run(values: Array) -> float:
-    """Return the largest sum of a run of positive values."""
+    """Return the largest sum over a run of consecutive positive values."""
     if not values.any():
         return 0.0
     total = np.concatenate([[0.0], np.cumsum(values)])

@@ -1,4 +1,4 @@
-"""Estimated errors of the figures of a sheet, from their changes between sizes of mesh."""
+"""Discretisation errors of a sheet's figures, estimated from their changes between mesh sizes."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from rollnip.sheet.zones import SideZones
 
 Array = NDArray[np.float64]
 
-_WITHOUT_FIRST = 3  # finer sizes that stand without the first, which hardly resolves short zones
-_SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
-_ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
-_ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and with others
+_WITHOUT_FIRST = 3  # finer sizes that suffice without the first, which hardly resolves short zones
+_SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # factors on estimates by second and by first order
+_ORDER_OF_TWO = 1.5  # assumed order of convergence where only two sizes exist
+_ORDERS = 5.0, 3.0  # orders for earlier changes: with the same zones, and with others
 _ROUNDING = 1e-12
 # Least error of each figure over its scale, times the square of the number of elements; measured
-# on random nips against much finer meshes (tests judge others).
+# on random nips against much finer meshes (tests check this on other nips).
 _LEAST = np.array(
     [
         *(0.1, 0.1, 1.0, 0.95, 0.3, 1.0, 1.0),
@@ -39,13 +39,13 @@ _BY_TRACTIONS = range(NAMES.index("traction_upper"), len(NAMES))
 
 @dataclass(frozen=True, slots=True)
 class SizeOfMesh:
-    """A solution on one size of mesh, with what estimates of its error need.
+    """The solution on one mesh size, as far as the error estimates need it.
 
     Attributes
     ----------
-    elements : about how many it was to have.
-    figures : of the upper interface; of a plate of the lower one, too.
-    zones : where it puts the zones.
+    elements : approximate number of elements.
+    figures : those of the upper interface; for a plate also those of the lower one.
+    zones : as the solution places them.
     """
 
     elements: float
@@ -56,16 +56,17 @@ class SizeOfMesh:
 def estimated_errors(
     nip: Nip, meshes: Sequence[Mesh], history: Sequence[SizeOfMesh]
 ) -> tuple[SheetFigures, ...]:
-    """Return the estimated errors of a solution, the last of some sizes of mesh, on its sides.
+    """Return the estimated errors of the last solution in ``history``, one set per side.
 
-    They are those of the mesh, and what a memory does that is shorter than its elements, on which
-    all sizes agree: to the width, and twice its share to a creepage that follows from a traction
-    and to all that tractions make, as without a sheet.
+    To the errors of the mesh they add the effect of material memory that is shorter than an
+    element, on which all mesh sizes agree: once to the width, and twice relative to the width to
+    creepages that follow from a traction and to all figures that depend on the tractions, as
+    without a sheet.
 
     Parameters
     ----------
     nip, meshes : the problem, and the meshes of the last size.
-    history : the sizes.
+    history : the mesh sizes, coarsest first.
     """
     lag = max(edge_within_memory(nip, mesh) for mesh in meshes)
     by_edges = [*_CREEPAGES[isinstance(nip.tangential, Creepage) :], *_BY_TRACTIONS]
@@ -78,12 +79,12 @@ def estimated_errors(
     return tuple(out)
 
 
-def claimed_of_powers(
+def raised_by_power_errors(
     errors: SheetFigures, works: Sequence[tuple[float, float]], off: Array
 ) -> SheetFigures:
-    """Return errors that are no less than slip along its own shear, and torques off their moments.
+    """Return errors that are at least the reversed slip work and the mismatch of the torques.
 
-    ``works``, ``off``: of both sides, see `slip_works` and `off_the_moments`.
+    ``works``, ``off``: of both sides, see `slip_works` and `torque_mismatch`.
     """
     values = errors.values.copy()
     for side, (_, reversed_slip), left in zip(("upper", "lower"), works, off, strict=True):
@@ -94,14 +95,14 @@ def claimed_of_powers(
 
 
 def _errors_between(nip: Nip, history: Sequence[SizeOfMesh], side: int) -> Array:
-    """Return the estimated errors from the changes between meshes.
+    """Return the errors estimated from the changes between mesh sizes.
 
-    The last change counts by the second order, or the first where the changes do not shrink so
-    fast; from two sizes alone, which show no order, by one between them. Two sizes may agree by
-    chance, so earlier changes count too, by higher orders; but for the first size, which finds the
-    zones and hardly resolves short ones, where three finer ones stand. So may figures of one kind,
-    which are given the largest error of their kind. No error is less than the least of such meshes
-    in random nips.
+    The last change is extrapolated by second order, or by first order where the changes shrink more
+    slowly; two sizes alone show no order, and an order between the two is assumed. Two sizes may
+    agree by chance, so earlier changes count too, extrapolated by higher orders. The first size is
+    excluded where three finer ones exist, because it finds the zones and hardly resolves short
+    ones. Figures of one kind may agree by chance as well, so each is given the largest error of its
+    kind. No error is smaller than the least error of such meshes found in random nips.
     """
     history = history[1:] if len(history) > _WITHOUT_FIRST else history
     last, figures = history[-1], history[-1].figures[side]

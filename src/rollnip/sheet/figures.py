@@ -1,4 +1,4 @@
-"""Figures of a nip with a sheet, their sizes, and what the model leaves uncertain of each."""
+"""Figures of a nip with a sheet, the scales of their errors, and the uncertainty of the model."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
 from rollnip.rolling.mesh_solution import scale_of_creepage
-from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import SheetPowers
-from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
 
-_WATCHED = 7  # of the figures: those that the tolerance is for
+_WATCHED = 7  # number of figures to which the tolerance applies
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,11 +28,11 @@ class SheetFigures:
 
     Attributes
     ----------
-    values : (20,) in the order of `NAMES`. The tolerance is for the first seven: approach, load
-        (the pressure's, less what the shears take of it), creepage, nip width, peak pressure, and
-        the creepages of both interfaces. Then the tractions of both interfaces, the largest and the
-        smallest tension, `SheetPowers`, the place of the highest pressure, and the largest strain
-        of the sheet in size.
+    values : (20,) in the order of `NAMES`. The tolerance applies to the first seven: approach, load
+        (of the pressure, less the part carried by the shears), creepage, nip width, peak pressure,
+        and the creepages of both interfaces. The others are the tractions of both interfaces, the
+        largest and the smallest tension, `SheetPowers`, the place of the peak pressure, and the
+        strain of the sheet of largest size.
     """
 
     values: Array
@@ -40,7 +40,7 @@ class SheetFigures:
     @classmethod
     def of(
         cls,
-        attempt: AnyAttempt,
+        iterate: AnyIterate,
         powers: SheetPowers,
         peak: tuple[float, float],
         tension: tuple[float, float],
@@ -50,19 +50,19 @@ class SheetFigures:
 
         Parameters
         ----------
-        attempt, powers : the solution, and its torques and losses.
-        peak : the highest pressure and its place.
+        iterate, powers : the solution, and its losses and pulls.
+        peak : the peak pressure and its place.
         tension : the largest and the smallest one.
-        strain : the largest in size.
+        strain : the one of largest size.
         """
-        meshes, state = attempt.problem.meshes, attempt.state
+        meshes, state = iterate.problem.meshes, iterate.state
         sides = state.side(0), state.side(1)
         tractions = [float(m.weights @ one.shear) for m, one in zip(meshes, sides, strict=True)]
         first = [
             state.approach,
-            float(meshes[0].weights @ sides[0].pressure) - attempt.lagged.lean,
+            float(meshes[0].weights @ sides[0].pressure) - iterate.lagged.lean,
             sum(state.creepages),
-            attempt.zones.width,
+            iterate.zones.width,
             peak[0],
         ]
         spent = powers.array().tolist()
@@ -76,12 +76,12 @@ class SheetFigures:
 
     @property
     def watched(self) -> Figures:
-        """Return the figures of any nip."""
+        """Return the figures that a bare nip has too."""
         return Figures(*self.values[:5].tolist())
 
     @property
     def powers(self) -> SheetPowers:
-        """Return torques over radii and losses."""
+        """Return the losses and pulls."""
         return SheetPowers(*self.values[11:18].tolist())
 
 
@@ -101,11 +101,11 @@ ALIKE = tuple(
         ("tension_max", "tension_min", "strain_max"),
     )
 )
-"""Figures of one kind: what a mesh leaves of one of them, it may leave of the others."""
+"""Groups of figures of one kind: a mesh error of one of them may also be one of the others."""
 
 
 def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
-    """Return the largest relative error of the figures that the tolerance is for."""
+    """Return the largest relative error of the figures with a tolerance."""
     relative = errors.values[:_WATCHED] / scales(nip, figures)[:_WATCHED]
     if nip.has_half_space:
         relative[0] = 0.0
@@ -114,14 +114,14 @@ def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
 
 
 def scales(nip: Nip, figures: SheetFigures) -> Array:
-    """Return the sizes that errors are relative to, (20,).
+    """Return the scales to which errors are relative, (20,).
 
-    A creepage, traction, tension or loss that is zero by symmetry has no relative accuracy: each
-    size is at least a part of the largest value that the figure may have.
+    A creepage, traction, tension or loss that vanishes by symmetry has no relative accuracy. Each
+    scale is therefore at least a fraction of the largest value that the figure may have.
     """
     values = np.abs(figures.values)
     load, slope = values[1], 0.5 * values[3] * nip.curvature
-    carried = 0.05 * np.minimum(frictions_of(nip), 1.0)  # of either side, over the load
+    carried = 0.05 * np.minimum(frictions_of(nip), 1.0)  # of each side, over the load
     work = load * slope
     viscous = [roller.is_viscoelastic for roller in (nip.upper, nip.lower)]
     out = values.copy()
@@ -154,16 +154,17 @@ SHARES_OF_MODEL: Mapping[Geometry, Array] = {
         ]
     ),
 }
-"""Relative error that a geometry leaves in each figure, as for a bare nip. In "finite" figures of
-30 random nips change by less than that between meshes of 24 and 64 elements."""
+"""Relative error that a geometry leaves in each figure, as for a bare nip. In "finite", figures of
+30 random nips change by less than this between meshes of 24 and 64 elements.
+"""
 
-# With twice the finite elements under the tractions the creepage of a plate changed by 0.9 %
+# With twice as many finite elements under the tractions the creepage of a plate changed by 0.9 %
 # (number 523 of the random sheets, with eight times its load), those of membranes by 0.14 %.
 _PLATE_CREEPAGES = 2.0
 
 
 def shares_of_model(geometry: Geometry, bends: bool) -> Array:
-    """Return what the model's own order leaves uncertain of each figure, over its scale, (n,)."""
+    """Return the uncertainty that the model leaves in each figure, over its scale, (n,)."""
     shares = SHARES_OF_MODEL.get(geometry, np.zeros(len(NAMES))).copy()
     if bends:
         at = [n for n, name in enumerate(NAMES) if name.startswith("creepage")]

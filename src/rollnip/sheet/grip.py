@@ -1,4 +1,4 @@
-"""How hard a sheet can be pulled before it slips through, and which interface slides first."""
+"""Grip: the pull at which the sheet slips through the nip, and the interface that slides first."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from numpy.typing import NDArray
 
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Side
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.result import Grip
-from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
 
-_ALIKE = 1e-4  # of a creepage, by which meshes make equal sides differ
+_ALIKE = 1e-4  # relative difference of creepages that the mesh makes between equal sides
 
 
 def grip_of(
     nip: Nip, pressed: float, pulls: tuple[float, float], sliding: tuple[Array, Array]
 ) -> Grip:
-    """Return the pulls that a nip holds.
+    """Return the range of pulls that the nip holds, and the use of friction on both sides.
 
     Parameters
     ----------
     nip : with a sheet.
-    pressed : int p dx [N/mm], at finite strain the load and what the shears take of it.
+    pressed : int p dx [N/mm]; at finite strain the load plus the part of it that the shears carry.
     pulls : T_u and T_l [N/mm].
     sliding : see `first_to_slide`; used where the rollers are geared together.
     """
@@ -47,7 +47,7 @@ def grip_of(
 
 
 def grip_error(nip: Nip, errors: Mapping[str, float]) -> float:
-    """Return the estimated error of the pulls that a nip holds [N/mm].
+    """Return the estimated error of the limits of the pull [N/mm].
 
     ``errors``: of the load and of T_l, by name.
     """
@@ -58,22 +58,22 @@ def grip_error(nip: Nip, errors: Mapping[str, float]) -> float:
 
 
 def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Side:
-    """Return the side of geared rollers that slides all over first where the pull is raised.
+    """Return the side of geared rollers that first slides as a whole when the pull is raised.
 
-    As the pull grows, the upper roller runs ahead of the sheet and, the sum of both creepages being
-    given, the lower one falls behind it by as much. An interface slides all over once that is more
-    than its surface and the sheet stretch apart anywhere: on the stiffer covering, with the smaller
-    friction, first.
+    As the pull grows, the creepage of the upper roller against the sheet rises, and because the sum
+    of both creepages is given, that of the lower one falls by the same amount. An interface slides
+    as a whole once its creepage exceeds the largest difference between the stretch of its surface
+    and that of the sheet. This happens first on the stiffer covering and with the smaller friction.
 
     Parameters
     ----------
-    sliding : creep over length on the upper and on the lower interface, for creepages of zero and
+    sliding : creep per length on the upper and on the lower interface, for zero creepages and
         shears of friction times pressure that pull the sheet backwards.
-    creepage : the sum of both.
+    creepage : the sum of both creepages.
 
     Returns
     -------
-    "upper" where both sides slide at the same pull.
+    "upper" also where both sides slide at the same pull.
     """
     upper, lower = sliding
     above, below = float(np.max(-upper)), creepage + float(np.max(lower))

@@ -1,10 +1,11 @@
-"""Torques, losses by slip on both interfaces, and the power that goes into the sheet.
+"""Torques, slip losses on both interfaces, and the power into the sheet.
 
 As without a sheet, M_u V_u/R_u = V_u (int q_u lambda_u ds + w_u) and
-M_l V_l/R_l = V_l (w_l - int q_l lambda_l ds), w the loss inside a roller per rolled distance. Of
-that power slip takes int q_u (creep of the upper interface) V and the like below, and the sheet
-takes the rest: V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds, which is the work
-against its tensions and the elastic energy that it carries away.
+M_l V_l/R_l = V_l (w_l - int q_l lambda_l ds), with the loss w inside each roller per rolled
+distance. Slip dissipates int q_u (creep of the upper interface) V of that power, and likewise on
+the lower interface. The rest goes into the sheet:
+V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds, the work against its tensions plus
+the elastic energy that it carries away.
 """
 
 from __future__ import annotations
@@ -20,24 +21,25 @@ from rollnip.model import Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 Pulls = Sequence[tuple[float, float]]
-"""int q lambda ds of either roller [N/mm]: with all short waves, and without those that the contact
-does not follow."""
+"""int q lambda ds of both rollers [N/mm], each with all short waves, and without those that the
+contact conditions do not follow.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class SheetPowers:
-    """Losses and pulls per rolled distance and axial length; times V [mm/s] each is a power.
+    """Losses and surface work per rolled distance and axial length; times V [mm/s] each is a power.
 
     Attributes
     ----------
-    friction_upper, friction_lower : lost by slip on either interface [N/mm].
-    lost_upper, lost_lower : inside each roller, per distance of its own surface [N/mm].
+    friction_upper, friction_lower : loss by slip on each interface [N/mm].
+    lost_upper, lost_lower : loss inside each roller, per distance of its own surface [N/mm].
     pull_upper, pull_lower : int q lambda ds of each roller [N/mm].
-    into_sheet : what the sheet takes [N/mm].
+    into_sheet : work into the sheet [N/mm].
     """
 
     friction_upper: float
@@ -49,12 +51,12 @@ class SheetPowers:
     into_sheet: float
 
     def array(self) -> Array:
-        """Return all of them in order, (7,)."""
+        """Return all values in order, (7,)."""
         return np.array(astuple(self))
 
     @property
     def as_bare(self) -> Powers:
-        """Return losses and pulls as those of a bare nip."""
+        """Return the losses and pulls in the form of a bare nip."""
         return Powers(
             friction=self.friction_upper + self.friction_lower,
             lost_upper=self.lost_upper,
@@ -65,15 +67,15 @@ class SheetPowers:
 
 
 def sheet_powers(
-    attempt: AnyAttempt, geometry: Geometry, pulls: Pulls, into_sheet: float
+    iterate: AnyIterate, geometry: Geometry, pulls: Pulls, into_sheet: float
 ) -> SheetPowers:
-    """Return torques over radii and losses of a solution."""
-    problem, state = attempt.problem, attempt.state
+    """Return the losses and pulls of a solution."""
+    problem, state = iterate.problem, iterate.state
     lost = [
         loss_inside(name, problem.nip, geometry, problem.meshes[side], state.side(side))
         for side, name in enumerate(SIDES)
     ]
-    friction = [lost for lost, _ in slip_works(attempt, geometry, pulls)]
+    friction = [lost for lost, _ in slip_works(iterate, geometry, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -85,15 +87,15 @@ def sheet_powers(
     )
 
 
-def slip_works(attempt: AnyAttempt, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
-    """Return what slip on either interface loses, and its work along its own shear [N/mm].
+def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
+    """Return the slip loss of each interface and its work along its own shear [N/mm].
 
-    Short waves that the contact does not follow change the stretch, and by it what the shear of a
-    surface hands over; the loss changes by as much.
+    Short waves that the contact conditions do not follow change the stretch, and with it the work
+    that a surface transmits by its shear; the slip loss changes by the same amount.
     """
-    rates, out = rates_of(geometry, sum(attempt.state.creepages)), []
+    rates, out = rates_of(geometry, sum(iterate.state.creepages)), []
     for side, ((lost, reversed_slip), sign) in enumerate(
-        zip(smooth_works(attempt), (1.0, -1.0), strict=True)
+        zip(smooth_slip_works(iterate), (1.0, -1.0), strict=True)
     ):
         whole, smooth = pulls[side]
         lost += sign * rates[side] * (whole - smooth)
@@ -101,23 +103,23 @@ def slip_works(attempt: AnyAttempt, geometry: Geometry, pulls: Pulls) -> list[tu
     return out
 
 
-def smooth_works(attempt: AnyAttempt) -> list[tuple[float, float]]:
-    """Return the same of the creep that the contact follows [N/mm]."""
-    problem, state, out = attempt.problem, attempt.state, []
+def smooth_slip_works(iterate: AnyIterate) -> list[tuple[float, float]]:
+    """Return `slip_works` for only the creep that the contact conditions follow [N/mm]."""
+    problem, state, out = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
-        work = problem.sheared(state, side) * (attempt.creeps[side][:-1] / mesh.dx[:-1])
+        work = problem.shear_forces(state, side) * (iterate.creeps[side][:-1] / mesh.dx[:-1])
         out.append(slip_losses(work, slip_zones(state.side(side).states)))
     return out
 
 
-def off_the_moments(attempt: AnyAttempt, spent: SheetPowers) -> Array:
-    """Return by how much torques differ from moments of the tractions, over the radii, (2,) [N/mm].
+def torque_mismatch(iterate: AnyIterate, spent: SheetPowers) -> Array:
+    """Return the mismatch of torques and moments of the tractions over the radii, (2,) [N/mm].
 
-    In equilibrium of all orders they are the same. Both come from the displacements of finite
-    elements, and a stretch of several times beside a slipping edge is less well known than the
+    In equilibrium of all orders they are equal. Both come from finite-element displacements, and a
+    stretch of several times the original length beside a slipping edge is less accurate than the
     height there.
     """
-    problem, state, out = attempt.problem, attempt.state, np.zeros(2)
+    problem, state, out = iterate.problem, iterate.state, np.zeros(2)
     driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
     for side, mesh in enumerate(problem.meshes):
         u = mesh.uncut(problem.displacements(state, side))
@@ -129,11 +131,12 @@ def off_the_moments(attempt: AnyAttempt, spent: SheetPowers) -> Array:
 def slip_zones(states: States) -> list[NDArray[np.bool_]]:
     """Return which intervals between nodes belong to each zone of slip, (n - 1,) each.
 
-    The one from its last node to the first that sticks belongs to it: where a transition is off by
-    delta the shear jumps there, and what that slips makes up for the rest of the zone but for
-    delta^2. On that to the other side the creep is zero.
+    The interval from the last slipping node of a zone to the first sticking one is included: where
+    the transition is misplaced by delta the shear jumps there, and the slip in that interval
+    balances the rest of the zone to within delta^2. In the interval at the other end of the zone
+    the creep is zero.
     """
     slips = states > State.STICK
-    zone = np.cumsum(~slips)[:-1]  # the same number from one node that does not slip to the next
+    zone = np.cumsum(~slips)[:-1]  # constant from each node that does not slip to the next one
     slips = slips[:-1] & (states[1:] != State.FREE)
     return [slips & (zone == number) for number in np.unique(zone[slips])]

@@ -1,4 +1,4 @@
-"""Sizes of mesh, finer and finer, until the estimated errors of all figures are small enough."""
+"""Mesh refinement until the estimated errors of all figures are within the tolerance."""
 
 from __future__ import annotations
 
@@ -7,46 +7,60 @@ from math import inf, sqrt
 from typing import Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
+from rollnip._results.records import SolverInfo
+from rollnip.contact import ContactProblem, ContactState
 from rollnip.model import Geometry, Model
-from rollnip.rolling import PairKernels
-from rollnip.sheet.attempt import AnyAttempt
+from rollnip.rolling import MeshSolution, PairKernels
+from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
+from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
-from rollnip.sheet.kind import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
-from rollnip.sheet.powers import off_the_moments, slip_works
+from rollnip.sheet.formulation import (
+    END_TOLERANCE,
+    FIRST_END_TOLERANCE,
+    FIRST_SIZE,
+    Formulation,
+    IterateT,
+    SheetZoneSearch,
+)
+from rollnip.sheet.iterate import AnyIterate
+from rollnip.sheet.powers import slip_works, torque_mismatch
 
-_GROWTH = 1.6  # of the number of elements from size to size, at most
+Array = NDArray[np.float64]
+
+_GROWTH = 1.6  # largest growth of the number of elements from size to size
 _LEAST_GROWTH = 1.25
-_MORE = 1.4  # than as many elements as bring an error to the tolerance
+_MORE = 1.4  # safety factor on the number of elements that would meet the tolerance
 _MOST_ELEMENTS = 340
-_CLOSELY_TO = 60  # elements beyond which ends are placed better
-_PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
-_MOST_FOR_LENGTH = 60.0  # elements that a first size is given for these
-_MOST_FAILURES = 3  # sizes of mesh in a row whose zones do not settle
+_TIGHTER_FROM = 60  # elements beyond which zone ends are placed more accurately
+_PER_LENGTH = 1.6  # elements of the first size per bending length in the width
+_MOST_FOR_LENGTH = 60.0  # upper limit of the first size for this reason
+_MOST_FAILURES = 3  # mesh sizes in a row whose zones do not converge
 _PEAK = NAMES.index("peak_pressure")
-T = TypeVar("T", bound=AnyAttempt, covariant=True)
+T = TypeVar("T", bound=AnyIterate, covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
 class Refined(Generic[T]):
-    """The last solution, its figures and their estimated errors.
+    """The solution on the finest mesh, its figures and their estimated errors.
 
     Attributes
     ----------
-    attempt : the solution on the finest meshes.
-    on_sides, errors_on_sides : figures and errors with width, highest pressure and its place of the
-        upper interface; of a plate those of the lower one follow. Errors are inf where unknown.
-    residual : how badly it violates the conditions.
-    count : about how many elements the meshes were to have.
-    cut : how far the conditions are violated by what "finite" leaves out of its correction.
-    cut_losses : how much that changes the friction loss of either side [N/mm].
+    iterate : the solution on the finest meshes.
+    figures_by_side, errors_by_side : figures and errors with width, peak pressure and its place of
+        the upper interface; for a plate, those of the lower interface follow. Unknown errors are
+        inf.
+    residual : of the contact conditions.
+    count : approximate number of elements.
+    cut : residual due to what the correction of "finite" leaves out.
+    cut_losses : change of the friction loss of each side due to the same [N/mm].
     """
 
-    attempt: T
-    on_sides: tuple[SheetFigures, ...]
-    errors_on_sides: tuple[SheetFigures, ...]
+    iterate: T
+    figures_by_side: tuple[SheetFigures, ...]
+    errors_by_side: tuple[SheetFigures, ...]
     residual: float
     count: int
     cut: float = 0.0
@@ -55,69 +69,109 @@ class Refined(Generic[T]):
     @property
     def figures(self) -> SheetFigures:
         """Return the figures with width and pressure of the upper interface."""
-        return self.on_sides[0]
+        return self.figures_by_side[0]
 
     @property
     def errors(self) -> SheetFigures:
         """Return their errors."""
-        return self.errors_on_sides[0]
+        return self.errors_by_side[0]
 
     @property
     def lower(self) -> SheetFigures:
         """Return the figures with width and pressure of the lower interface."""
-        return self.on_sides[-1]
+        return self.figures_by_side[-1]
 
     @property
     def lower_errors(self) -> SheetFigures:
         """Return their errors."""
-        return self.errors_on_sides[-1]
+        return self.errors_by_side[-1]
+
+    def upper_mesh_solution(
+        self, problem: ContactProblem, state: ContactState, terms: tuple[Array, Array]
+    ) -> MeshSolution:
+        """Return the solution in the form of a bare nip's, with the upper interface's tractions.
+
+        Parameters
+        ----------
+        problem, state : what a bare nip on the mesh of the upper interface would have.
+        terms : lagged terms of the gap and of the creep of the upper interface, each (n,) [mm].
+        """
+        iterate, (clearance, offset) = self.iterate, terms
+        mesh = iterate.problem.meshes[0]
+        return MeshSolution(
+            mesh=mesh,
+            problem=problem,
+            state=state,
+            second=SecondOrder(
+                clearance, np.zeros(mesh.inner.size), offset, iterate.lagged.traction
+            ),
+            zones=iterate.zones.upper.zones,
+            figures=self.figures.watched,
+            error=self.errors.watched,
+            steps=iterate.steps,
+            settled=iterate.settled,
+            geometry_change=iterate.change,
+            residual=self.residual,
+            cut=self.cut,
+        )
+
+    def solver_info(self, seconds: float, version: str) -> SolverInfo:
+        """Return the record of how the solution was reached."""
+        return SolverInfo(
+            elements=int(max(mesh.nodes.size for mesh in self.iterate.problem.meshes) - 1),
+            iterations=self.iterate.steps,
+            residual=self.residual,
+            geometry_change=self.iterate.change,
+            seconds=seconds,
+            version=version,
+        )
 
 
 def refine(
-    kind: SheetKind[S],
+    formulation: Formulation[IterateT],
     model: Model,
     kernels: PairKernels,
     half_width: float,
-    before: S | None = None,
-) -> Refined[S]:
-    """Solve on ever finer meshes until the estimated errors are below the tolerance.
+    before: IterateT | None = None,
+) -> Refined[IterateT]:
+    """Solve on finer and finer meshes until the estimated errors are within the tolerance.
 
     Parameters
     ----------
-    kind, model, kernels : the problem, how it is computed, and its influence functions.
-    half_width : about that of the contact [mm].
-    before : a solution to begin with; None: one of the linear geometry.
+    formulation, model, kernels : the problem, how it is solved, and its influence functions.
+    half_width : approximate half-width of the contact [mm].
+    before : a solution to start from; None: start in linear geometry.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        where no size of mesh has a solution.
+        where no mesh size has a solution.
     """
-    search, count = kind.search(model, kernels), elements_to_begin_with(kind, half_width)
-    attempt = search.begun(half_width, round(count)) if before is None else before
+    search, count = formulation.search(model, kernels), initial_elements(formulation, half_width)
+    iterate = search.start(half_width, round(count)) if before is None else before
     history: list[SizeOfMesh] = []
-    best: Refined[S] | None = None
+    best: Refined[IterateT] | None = None
     failures = last_count = 0
     while count <= _MOST_ELEMENTS and failures < _MOST_FAILURES:
         try:
-            closely = _closely(count) if history else ROUGHLY
-            attempt = search.placed(attempt.zones, round(count), attempt, closely)
+            end_tolerance = _end_tolerance(count) if history else FIRST_END_TOLERANCE
+            iterate = search.settle_zones(iterate.zones, round(count), iterate, end_tolerance)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        here = _size_of(kind, model.geometry, attempt, count)
-        errors = estimated_errors(kind.nip, attempt.problem.meshes, [*history, here])
-        excess = _excess(kind, model, here, errors)
-        if attempt.settled and history and excess > 1.0:
-            history = _with_zones_of(kind, model, search, attempt, history, last_count)
-            errors = estimated_errors(kind.nip, attempt.problem.meshes, [*history, here])
-            excess = _excess(kind, model, here, errors)
-        latest = Refined(attempt, here.figures, errors, violation(attempt), round(count))
-        if attempt.settled:
+        here = _size_of(formulation, model.geometry, iterate, count)
+        errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
+        excess = _excess(formulation, model, here, errors)
+        if iterate.settled and history and excess > 1.0:
+            history = _with_same_zones(formulation, model, search, iterate, history, last_count)
+            errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
+            excess = _excess(formulation, model, here, errors)
+        latest = Refined(iterate, here.figures, errors, violation(iterate), round(count))
+        if iterate.settled:
             history.append(here)
             best, failures, last_count = latest, 0, round(count)
             if excess <= 1.0 and latest.residual <= model.tolerance:
-                best = _with_overlap(kind, latest, kernels, model.geometry)
+                best = _with_outside_check(formulation, latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
                     return best
         else:
@@ -125,110 +179,123 @@ def refine(
         count = _next_count(count, excess)
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return _with_overlap(kind, best, kernels, model.geometry)
+    return _with_outside_check(formulation, best, kernels, model.geometry)
 
 
-def elements_to_begin_with(
-    kind: SheetKind[S], half_width: float, least: float = FIRST_SIZE
+def initial_elements(
+    formulation: Formulation[IterateT], half_width: float, least: float = FIRST_SIZE
 ) -> float:
-    """Return a number of elements that resolves what the sheet does, no less than ``least``."""
-    lengths = 2.0 * half_width / kind.bending_length
+    """Return a number of elements that resolves the bending length, at least ``least``."""
+    lengths = 2.0 * half_width / formulation.bending_length
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
-def _size_of(kind: SheetKind[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
-    """Return what the estimates of errors ask of a size of mesh."""
-    return SizeOfMesh(count, kind.figures(attempt, geometry), attempt.zones)
+def _size_of(
+    formulation: Formulation[IterateT], geometry: Geometry, iterate: IterateT, count: float
+) -> SizeOfMesh:
+    """Return a solution in the form that the error estimates take."""
+    return SizeOfMesh(count, formulation.figures(iterate, geometry), iterate.zones)
 
 
 def _excess(
-    kind: SheetKind[S], model: Model, here: SizeOfMesh, errors: tuple[SheetFigures, ...]
+    formulation: Formulation[IterateT],
+    model: Model,
+    here: SizeOfMesh,
+    errors: tuple[SheetFigures, ...],
 ) -> float:
-    """Return the largest error of the figures that the tolerance is for, over the one allowed."""
+    """Return the largest error over its allowed value, of the figures with a tolerance."""
     most = 0.0
     for figures, error, allowed in zip(
-        here.figures, errors, kind.peaks_allowed(model), strict=True
+        here.figures, errors, formulation.peak_tolerances(model), strict=True
     ):
         values = error.values.copy()
         values[_PEAK] *= model.tolerance / allowed
-        most = max(most, ratio(kind.nip, figures, SheetFigures(values)))
+        most = max(most, ratio(formulation.nip, figures, SheetFigures(values)))
     return most / model.tolerance
 
 
-def _with_zones_of(
-    kind: SheetKind[S],
+def _with_same_zones(
+    formulation: Formulation[IterateT],
     model: Model,
-    search: SearchOfZones[S],
-    attempt: S,
+    search: SheetZoneSearch[IterateT],
+    iterate: IterateT,
     history: list[SizeOfMesh],
     count: int,
 ) -> list[SizeOfMesh]:
-    """Return the sizes of mesh before a solution, the last of them with its zones.
+    """Return a history that can be compared with a solution: its last entry has the same zones.
 
-    Where a solution has other zones than the sizes before, which missed them, what it changes says
-    nothing of its own errors. The last size before, of ``count`` elements, is solved again,
-    with nodes at the ends of these zones.
+    Where a solution has other zones than the coarser sizes, its change from those says nothing
+    about its own error. The last size, of ``count`` elements, is then solved again with nodes at
+    the ends of the new zones.
     """
-    if not history or history[-1].zones.is_like(attempt.zones):
+    if not history or history[-1].zones.is_like(iterate.zones):
         return history
     try:
-        again = search.placed(attempt.zones, count, attempt, ROUGHLY)
+        again = search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
     except np.linalg.LinAlgError:
         return history
-    if not (again.settled and again.zones.is_like(attempt.zones)):
+    if not (again.settled and again.zones.is_like(iterate.zones)):
         return history
-    return [_size_of(kind, model.geometry, again, count)]
+    return [_size_of(formulation, model.geometry, again, count)]
 
 
-def _closely(count: float) -> float:
-    """Return the allowed error of ends over the tolerance: less on finer meshes, as their errors.
+def _end_tolerance(count: float) -> float:
+    """Return the allowed error of zone ends over the tolerance, tighter on finer meshes.
 
-    Else the changes between sizes would be those of misplaced ends.
+    Otherwise the changes between sizes would be those of misplaced ends.
     """
-    return CLOSELY * min(1.0, (_CLOSELY_TO / count) ** 2)
+    return END_TOLERANCE * min(1.0, (_TIGHTER_FROM / count) ** 2)
 
 
 def _next_count(count: float, excess: float) -> float:
-    """Return how many elements an error so many times too large asks for; inf: no more are left.
+    """Return the number of elements to reduce the error by ``excess``; inf: no finer size is left.
 
-    As if errors were of second order in the size of the elements.
+    Errors are assumed to be of second order in the element length.
     """
     growth = min(max(_MORE * sqrt(excess), _LEAST_GROWTH), _GROWTH)
     return min(count * growth, _MOST_ELEMENTS) if _LEAST_GROWTH * count < _MOST_ELEMENTS else inf
 
 
-def _with_overlap(
-    kind: SheetKind[S], refined: Refined[S], kernels: PairKernels, geometry: Geometry
-) -> Refined[S]:
-    """Return a solution with what it overlaps outside the contact, too."""
-    left = max(refined.residual, kind.overlap(refined.attempt, kernels, geometry))
-    return with_errors_of_powers(kind, replace(refined, residual=left), geometry)
+def _with_outside_check(
+    formulation: Formulation[IterateT],
+    refined: Refined[IterateT],
+    kernels: PairKernels,
+    geometry: Geometry,
+) -> Refined[IterateT]:
+    """Return a solution whose residual and errors include the check outside the contact."""
+    left = max(refined.residual, formulation.overlap(refined.iterate, kernels, geometry))
+    return with_power_errors(formulation, replace(refined, residual=left), geometry)
 
 
-def with_errors_of_powers(
-    kind: SheetKind[S], refined: Refined[S], geometry: Geometry
-) -> Refined[S]:
-    """Return a solution that claims slip along its own shear, and errors of torques.
+def with_power_errors(
+    formulation: Formulation[IterateT], refined: Refined[IterateT], geometry: Geometry
+) -> Refined[IterateT]:
+    """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
-    The former has no place in its losses. Only at finite strain are moments as exact as torques.
+    Slip along its own shear cannot be counted as a loss. Only at finite strain are the moments of
+    the tractions as exact as the torques.
     """
-    attempt = refined.attempt
-    works = slip_works(attempt, geometry, kind.pulls(attempt, geometry))
+    iterate = refined.iterate
+    works = slip_works(iterate, geometry, formulation.pulls(iterate, geometry))
     left = np.zeros(2)
     if geometry == "finite":
-        left = off_the_moments(attempt, refined.figures.powers)
-    errors = tuple(claimed_of_powers(one, works, left) for one in refined.errors_on_sides)
-    return replace(refined, errors_on_sides=errors)
+        left = torque_mismatch(iterate, refined.figures.powers)
+    errors = tuple(raised_by_power_errors(one, works, left) for one in refined.errors_by_side)
+    return replace(refined, errors_by_side=errors)
 
 
 def on_last_mesh(
-    kind: SheetKind[S], refined: Refined[S], attempt: S, kernels: PairKernels, left: float
-) -> Refined[S]:
-    """Return a refined solution at finite strain with other terms on its last mesh.
+    formulation: Formulation[IterateT],
+    refined: Refined[IterateT],
+    iterate: IterateT,
+    kernels: PairKernels,
+    left: float,
+) -> Refined[IterateT]:
+    """Return a refined solution at finite strain with other lagged terms on its last mesh.
 
-    ``left``: how badly it violates the conditions of gap and creep.
+    ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(attempt), kind.overlap(attempt, kernels, "finite"))
-    figures = kind.figures(attempt, "finite")
-    found = replace(refined, attempt=attempt, on_sides=figures, residual=left)
-    return with_errors_of_powers(kind, found, "finite")
+    left = max(left, violation(iterate), formulation.overlap(iterate, kernels, "finite"))
+    figures = formulation.figures(iterate, "finite")
+    found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
+    return with_power_errors(formulation, found, "finite")

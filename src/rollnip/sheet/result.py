@@ -1,4 +1,4 @@
-"""What a solution says of its sheet: feed, tractions, tension, strain, slip below, grip."""
+"""Results of the sheet: feed, tractions, tension, strain, slip on the lower side and grip."""
 
 from __future__ import annotations
 
@@ -31,14 +31,13 @@ class SheetProfiles(Sealed):
     ----------
     x : (n,) [mm], towards the leading edge.
     shear_lower : (n,) q_l on the sheet's underside along +x; on the lower roller it is -q_l [MPa].
-    tension : (n,) per width [N/mm]; outside the nip those that are prescribed.
+    tension : (n,) per width [N/mm]; outside the nip the prescribed tensions.
     strain : (n,) of the sheet's middle along the nip.
     slip_velocity_lower : (n,) of the sheet relative to the lower surface, along +x [mm/s]; nan
         outside the contact; None without speed.
-    pressure_lower : (n,) on the lower interface [MPa]; of a sheet that bends freely it is that on
-        the upper one.
-    height : (n,) of the sheet over the top of the undeformed lower roller, its thickness left out:
-        its path [mm]; of a sheet that bends freely it lies halfway between the surfaces.
+    pressure_lower : (n,) on the lower interface [MPa]; for a membrane the same as on the upper one.
+    height : (n,) height of the sheet's path above the top of the undeformed lower roller, without
+        the sheet's thickness [mm]; for a membrane halfway between the surfaces.
     """
 
     x: Array
@@ -52,22 +51,22 @@ class SheetProfiles(Sealed):
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """How hard the sheet can be pulled before it slips through the nip.
+    """The pull that the sheet can take before it slips through the nip.
 
-    The pull is the tension on the inlet side less that on the outlet side: what the rollers give
-    to the sheet, T_u - T_l (at finite strain up to a hundredth more, for tension grows along the
-    path of the sheet). In full sliding each roller gives its friction times int p dx. That is the
-    load; at finite strain the shears carry part of it along the bent path, some hundredths of it at
-    most, which is taken as it is now.
+    The pull is the tension on the inlet side less that on the outlet side, which is the force of
+    the rollers on the sheet, T_u - T_l (at finite strain up to a hundredth more, because tension
+    grows along the path of the sheet). In full sliding each roller contributes its friction
+    coefficient times int p dx. That integral is the load; at finite strain the shears carry part of
+    the load along the curved path, a few hundredths at most, which is taken at its present value.
 
     Attributes
     ----------
     pull : present [N/mm].
-    largest, smallest : pulls between which the nip holds the sheet [N/mm]; with a prescribed
-        traction or torque the lower roller's share stays as it is.
-    first : the side that slides all over first where the pull is raised. With geared rollers the
-        sheet is lost when the other one does, too.
-    use_upper, use_lower : traction of each interface over friction times int p dx, in size.
+    largest, smallest : limits of the pull between which the nip holds the sheet [N/mm]; with a
+        prescribed traction or torque the share of the lower roller is held constant.
+    first : the side that first slides as a whole when the pull is raised. With geared rollers the
+        sheet is lost only when the other side slides too.
+    use_upper, use_lower : size of the traction of each interface over friction times int p dx.
     """
 
     pull: float
@@ -79,7 +78,7 @@ class Grip:
 
     @property
     def reserve(self) -> float:
-        """Change of the pull, up or down, that makes the sheet slip through [N/mm]."""
+        """Change of the pull, up or down, at which the sheet slips through [N/mm]."""
         return min(self.largest - self.pull, self.pull - self.smallest)
 
 
@@ -89,27 +88,27 @@ class SheetResult:
 
     Attributes
     ----------
-    creepage_upper, creepage_lower : (V_u - V_s)/V and (V_s - V_l)/V, V_s the speed of the sheet
-        free of tension.
-    feed_upper, feed_lower : V_s/V_u - 1 and V_s/V_l - 1: how much longer the fed sheet is than
-        what rolled off that roller, free of tension.
+    creepage_upper, creepage_lower : (V_u - V_s)/V and (V_s - V_l)/V, with the speed V_s of the
+        sheet free of tension.
+    feed_upper, feed_lower : V_s/V_u - 1 and V_s/V_l - 1: relative excess of the length of sheet
+        fed, free of tension, over the length that rolled off each roller.
     speed : V_s [mm/s]; None without speed.
     traction_upper, traction_lower : T_u and T_l [N/mm].
     tension_max, tension_min : in the nip [N/mm].
-    strain_max : the largest in size, with its sign.
-    friction_upper, friction_lower : losses by slip on either interface [N/s]; None without speed.
-    power : what the sheet takes: work against its tensions and the elastic energy that it carries
+    strain_max : strain of largest size, with its sign.
+    friction_upper, friction_lower : losses by slip on each interface [N/s]; None without speed.
+    power : power into the sheet: work against its tensions and the elastic energy that it carries
         away [N/s]; None without speed.
-    slip_share_upper, slip_share_lower : share of the nip width over which either interface slips.
-    zones_lower : stick and slip on the lower interface; directions are those of the slip velocity
-        of the sheet relative to the lower surface.
-    bending_length : over which its bending stiffness counts on these rollers, (D d/E)^(1/4) [mm].
-    bends : whether its bending stiffness was counted; where not, it bends freely.
+    slip_share_upper, slip_share_lower : share of the nip width over which each interface slips.
+    zones_lower : stick and slip zones on the lower interface; their directions are those of the
+        slip velocity of the sheet relative to the lower surface.
+    bending_length : length over which bending stiffness acts on these rollers, (D d/E)^(1/4) [mm].
+    bends : whether the bending stiffness is included; otherwise the sheet is a membrane.
     nip_width_lower : width of the lower interface [mm]; the nip width is that of the upper one.
-    peak_pressure_lower : highest pressure on the lower interface [MPa].
-    grip : how hard it can be pulled.
-    profiles : along the sheet.
-    error : estimated errors by name, absolute.
+    peak_pressure_lower : peak pressure on the lower interface [MPa].
+    grip : the pull that the sheet can take.
+    profiles : distributions along the sheet.
+    error : estimated absolute errors by name.
     """
 
     creepage_upper: float
@@ -138,7 +137,7 @@ class SheetResult:
 
     @property
     def grip_reserve(self) -> float:
-        """Change of the pull that makes the sheet slip through [N/mm]; see `Grip`."""
+        """Change of the pull at which the sheet slips through [N/mm]; see `Grip`."""
         return self.grip.reserve
 
 
@@ -149,7 +148,7 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
 
 
 def pull_in_slip(one: MeshSolution) -> float:
-    """Return int |q| dx of an interface where it slips [N/mm]."""
+    """Return int |q| dx over the slip zones of an interface [N/mm]."""
     slips = one.state.states > State.STICK
     return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))
 

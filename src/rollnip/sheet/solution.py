@@ -1,4 +1,4 @@
-"""The result of a nip with a sheet: what `Solution` says, with two interfaces."""
+"""The solution of a nip with a sheet, as `Solution` but with two interfaces."""
 
 from __future__ import annotations
 
@@ -28,12 +28,16 @@ from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
-from rollnip.sheet.common import not_prescribed
+from rollnip.sheet.checks import not_prescribed
 from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
-from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
-from rollnip.sheet.lagged import sheet_rate
-from rollnip.sheet.membrane import traction_slope
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.local_deformation import thickness_loss
+from rollnip.sheet.membrane.formulation import traction_slope
+from rollnip.sheet.membrane.search import MembraneIterate
+from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
+from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
@@ -44,9 +48,6 @@ from rollnip.sheet.result import (
     slip_share_of,
     zones_of,
 )
-from rollnip.sheet.search import SheetAttempt
-from rollnip.sheet.squeeze import squeezed
-from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
@@ -56,16 +57,16 @@ Array = NDArray[np.float64]
 class SheetSolution(SmoothSolution):
     """A solved nip with a sheet.
 
-    Everything that `Solution` says, with these differences: ``creepage`` is the difference of the
-    rollers' speeds, ``traction`` what the lower roller takes (T_l); ``shear``, ``zones`` and the
-    slip velocity are those of the upper interface, ``gap`` is the gap less the sheet.
+    It offers what `Solution` does, with these differences: ``creepage`` is the difference of the
+    rollers' speeds, ``traction`` is that on the lower roller (T_l); ``shear``, ``zones`` and the
+    slip velocity are those of the upper interface, and ``gap`` is the gap less the sheet.
 
     Attributes
     ----------
     refined : the solution on the finest mesh and the estimated errors.
     """
 
-    refined: Refined[SheetAttempt] = field(kw_only=True, repr=False, compare=False)
+    refined: Refined[MembraneIterate] = field(kw_only=True, repr=False, compare=False)
 
     @property
     def sheet(self) -> SheetResult:
@@ -79,19 +80,19 @@ class SheetSolution(SmoothSolution):
 
     @property
     def traction(self) -> float:
-        """Traction T_l [N/mm], what the lower roller takes; T_u is ``sheet.traction_upper``."""
+        """Traction T_l on the lower roller [N/mm]; T_u is ``sheet.traction_upper``."""
         return self._figure("traction_lower")
 
     @property
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]."""
+        """Place of the peak pressure [mm]."""
         return self._figure("peak_pressure_x")
 
     @property
     def power_in(self) -> float | None:
         """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
 
-        It is the loss by friction, the viscous loss and what the sheet takes.
+        It is the sum of the friction loss, the viscous loss and the power into the sheet.
         """
         if self.nip.speed is None:
             return None
@@ -148,13 +149,13 @@ class SheetSolution(SmoothSolution):
 
     @property
     def _gap(self) -> Array:
-        """Gap of the surfaces less the sheet, negative where they are pressed into it [mm]."""
+        """Gap between the surfaces less the sheet, negative where they are pressed into it [mm]."""
         surfaces = self.deformed_surfaces
         return surfaces.upper - surfaces.lower + self._thinned(surfaces.x)
 
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
+        """Heights of both surfaces; the sheet between them is taken without its thickness."""
         x, u = self._points
         upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
         return DeformedSurfaces(x, upper - self.final.state.approach, -lower)
@@ -169,7 +170,7 @@ class SheetSolution(SmoothSolution):
             return None if speed is None else speed * value
 
         pulls = self._figure("traction_upper"), self.traction
-        pressed = self.load + self.refined.attempt.lagged.lean
+        pressed = self.load + self.refined.iterate.lagged.lean
         return SheetResult(
             creepage_upper=state.creepage,
             creepage_lower=state.creepage_lower,
@@ -198,7 +199,7 @@ class SheetSolution(SmoothSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        shear = self.refined.attempt.problem.mesh.acting(self._state.shear_lower)
+        shear = self.refined.iterate.problem.mesh.acting(self._state.shear_lower)
         pressure = self._at(x, self.final.pressure)
         surfaces = self.deformed_surfaces
         lower, height = self._at(x, shear), 0.5 * (surfaces.upper + surfaces.lower)
@@ -207,12 +208,12 @@ class SheetSolution(SmoothSolution):
 
     @property
     def bends(self) -> bool:
-        """Whether the sheet's stiffness against bending is counted."""
+        """Whether the sheet's bending stiffness is included."""
         return False
 
     @property
     def on_lower_side(self) -> tuple[float, float]:
-        """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
+        """Width of the lower interface [mm], and the peak pressure on it [MPa]."""
         figures = self.refined.lower
         return figures.nip_width, figures.peak_pressure
 
@@ -223,7 +224,7 @@ class SheetSolution(SmoothSolution):
         return mine["nip_width"], mine["peak_pressure"]
 
     def sheet_errors(self) -> dict[str, float]:
-        """Return the errors of the figures of the sheet, by their names."""
+        """Return the errors of the figures of the sheet by name."""
         mine, state, half = self._errors, self._state, 0.5 * self.creepage
         speed = nan if self.nip.speed is None else self.nip.speed
         names = ("creepage_upper", "creepage_lower", "traction_upper", "traction_lower")
@@ -240,7 +241,7 @@ class SheetSolution(SmoothSolution):
 
     @cached_property
     def _errors(self) -> dict[str, float]:
-        """Errors of all figures of the refinement, none less than the model's own."""
+        """Errors of all figures of the refinement, at least those of the model itself."""
         figures = self.refined.figures
         mine = self._claimed(figures, self.refined.errors)
         if isinstance(self.nip.tangential, Creepage) and self.model.geometry in FINITE:
@@ -259,26 +260,26 @@ class SheetSolution(SmoothSolution):
         return mine
 
     def _traction_slope(self) -> float:
-        """Return how fast both tractions grow with the creepage, see `traction_slope` [N/mm]."""
-        return traction_slope(self.refined.attempt)
+        """Return the derivative of both tractions by the creepage, see `traction_slope` [N/mm]."""
+        return traction_slope(self.refined.iterate)
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
-        """Return errors by name, none less than what the model's own order leaves uncertain."""
+        """Return errors by name, at least the uncertainty that the model's own order leaves."""
         shares = shares_of_model(self.model.geometry, self.bends)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
         least = shares * scales(self.nip, figures)
         sheet = self.nip.sheet
         if sheet is not None and sheet.bending is None and not self.bends:
-            edges = self.refined.attempt.zones.edges
+            edges = self.refined.iterate.zones.edges
             wrapped = wrapped_length(self.nip, self.deformed_surfaces, edges)
-            least += left_by_bending_freely(self.nip, figures, wrapped)
+            least += neglected_bending_errors(self.nip, figures, wrapped)
         out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
         if self.model.geometry not in FINITE:
             return out
         for number, (side, loss) in enumerate(zip(SIDES, self.refined.cut_losses, strict=True)):
-            # What slips is faster by the creepage's error, under shears that may cancel in the
-            # traction, which passes on the power of that error, too.
+            # An error of the creepage changes the slip velocity, and so the power of the shears
+            # in slip, which may cancel in the traction.
             pull = max(
                 abs(getattr(figures, f"traction_{side}")), pull_in_slip(self._of_side(number))
             )
@@ -293,11 +294,11 @@ class SheetSolution(SmoothSolution):
         return self._zones(0)
 
     def _zones(self, side: int) -> tuple[Zone, ...]:
-        return zones_of(self.refined.attempt.zones.sides[side])
+        return zones_of(self.refined.iterate.zones.sides[side])
 
     @property
-    def _state(self) -> SheetState:
-        return self.refined.attempt.state
+    def _state(self) -> MembraneState:
+        return self.refined.iterate.state
 
     @property
     def _spent(self) -> SheetPowers:
@@ -311,13 +312,13 @@ class SheetSolution(SmoothSolution):
         return self._spent.as_bare
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q_u, p) above and (-q_l, p) below."""
-        mesh, state = self.refined.attempt.problem.mesh, self._state
+        """Return the tractions on one surface in its own frame: (q_u, p) above, (-q_l, p) below."""
+        mesh, state = self.refined.iterate.problem.mesh, self._state
         shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
     def _of_side(self, side: int) -> MeshSolution:
-        """Return the last round as that of one interface."""
+        """Return the last round in the form of one interface."""
         return replace(self.final, state=self._state.side(side))
 
     def _at(self, x: Array, traction: Array) -> Array:
@@ -329,7 +330,7 @@ class SheetSolution(SmoothSolution):
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
-        sheet, problem, state = self.nip.sheet, self.refined.attempt.problem, self._state
+        sheet, problem, state = self.nip.sheet, self.refined.iterate.problem, self._state
         assert sheet is not None
         nodes, mesh = self.final.nodes, problem.mesh
         pull = np.zeros(nodes.size)
@@ -340,50 +341,50 @@ class SheetSolution(SmoothSolution):
         return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
 
     def _strain_of_sheet(self, x: Array) -> Array:
-        """Return how far the sheet is stretched by its tension and the pressure on it."""
+        """Return the strain of the sheet due to its tension and the pressure on it."""
         sheet = self.nip.sheet
         assert sheet is not None
         pressure = self._at(x, self.final.pressure)
         return sheet.stretch_by_tension * self._tension(x) + sheet.stretch_by_pressure * pressure
 
     def _thinned(self, x: Array) -> Array:
-        """Return by how much the sheet is thinner than without load [mm]."""
+        """Return the loss of the sheet's thickness under load [mm]."""
         sheet = self.nip.sheet
         assert sheet is not None
-        acting = self.refined.attempt.problem.mesh.acting(self._state.pressure)
-        thinner = squeezed(sheet, x, self.final.nodes, acting[:, None])[:, 0]
+        acting = self.refined.iterate.problem.mesh.acting(self._state.pressure)
+        thinner = thickness_loss(sheet, x, self.final.nodes, acting[:, None])[:, 0]
         return thinner + sheet.stretch_by_pressure * self._tension(x)
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
         """Places in and outside the nip, and the displacements of both surfaces there."""
         x = fine_points(self.final)
-        mesh, state = self.refined.attempt.problem.mesh, self._state
+        mesh, state = self.refined.iterate.problem.mesh, self._state
         acting = np.stack(
             [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
         )
-        u = sheet_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
+        u = membrane_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
         if self.kernels.is_linear:
             return x, u
         held = self.kernels.held or mesh.second_fields(state)
         return x, u + held.at(x)
 
     def _sliding(self) -> tuple[Array, Array]:
-        """Return creeps over length, see `grip.first_to_slide`."""
-        attempt, state = self.refined.attempt, self._state
+        """Return creeps per length in full sliding, see `grip.first_to_slide`."""
+        iterate, state = self.refined.iterate, self._state
         mu_u, mu_l = frictions_of(self.nip)
         above, below = mu_u * state.pressure, -mu_l * state.pressure
         slid = replace(state, shear=above, shear_lower=below, creepage=0.0, creepage_lower=0.0)
-        _, upper, lower = attempt.problem.gap_and_creeps(slid, attempt.lagged)[:, :-1]
-        length = attempt.problem.dx[:-1]
+        _, upper, lower = iterate.problem.gap_and_creeps(slid, iterate.lagged)[:, :-1]
+        length = iterate.problem.dx[:-1]
         return upper / length, lower / length
 
     def _slip(self, side: int) -> Array | None:
-        """Return the slip velocity of the upper surface of an interface over the lower one."""
+        """Return the slip velocity of the upper relative to the lower surface of an interface."""
         speed = self.nip.speed
         if speed is None:
             return None
-        (x, u), attempt = self._points, self.refined.attempt
+        (x, u), iterate = self._points, self.refined.iterate
         dx, state = np.diff(x), self._state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = self._strain_of_sheet(x)
@@ -393,7 +394,7 @@ class SheetSolution(SmoothSolution):
         rate = creepage + sign * (stretch - mean)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
-        for zone in attempt.zones.sides[side].zones:
+        for zone in iterate.zones.sides[side].zones:
             within = inside_zone(x, zone)
             sticks = zone.state == State.STICK
             out[within] = 0.0 if sticks else -speed * np.interp(x[within], middle, rate)

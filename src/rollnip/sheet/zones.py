@@ -1,48 +1,30 @@
-"""Zones of stick and slip on both interfaces of a sheet, which share the edges of the contact."""
+"""Zones of stick and slip on the two interfaces of a sheet, common to membranes and plates."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Layout, States, contact_zones
-from rollnip.sheet.system import SheetProblem, SheetState
+from rollnip.contact import Layout
 
 Array = NDArray[np.float64]
 
-_TOGETHER = (
-    5e-4  # over the width: transitions of both interfaces so near to each other share a node
-)
-_COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
-SLIVER = 1e-3  # over the width: zones that are left out
-LONGEST_MOVE = 0.04  # of an edge, over the width
-_OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
-
-
-class LazyZones(Protocol):
-    """Zones that are worked out where they are asked for."""
-
-    @property
-    def sides(self) -> tuple[Layout, Layout]:
-        """Return the zones of the upper and of the lower interface."""
-        ...
-
-    def creeps_back(self, number: int) -> NDArray[np.bool_]:
-        """Return beside which transitions of an interface slip is called to stick, (m,)."""
-        ...
+LONGEST_MOVE = 0.04
+"""Longest move of an edge per mesh, over the width."""
+OF_TRANSITIONS = 10.0
+"""Factor of the squared distance of transitions, compared to the distance of edges."""
 
 
 @dataclass(frozen=True, slots=True)
 class SideZones:
-    """The zones of the upper and of the lower interface, whatever edges they have.
+    """The zones of the upper and of the lower interface, each with any edges.
 
     Attributes
     ----------
-    upper, lower : zones of either interface.
+    upper, lower : zones of each interface.
     """
 
     upper: Layout
@@ -50,7 +32,7 @@ class SideZones:
 
     @classmethod
     def sticking(cls, reach: float) -> Self:
-        """Return one zone of stick on each interface, as far as ``reach`` on either side [mm]."""
+        """Return one stick zone on each interface, from -``reach`` to ``reach`` [mm]."""
         return cls(Layout.sticking(reach), Layout.sticking(reach))
 
     @property
@@ -65,11 +47,11 @@ class SideZones:
 
     @property
     def ends(self) -> Array:
-        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
+        """Return the zone ends of both interfaces, one after the other, (m,) [mm]."""
         return np.concatenate([side.breaks for side in self.sides])
 
     def with_ends(self, ends: Array) -> Self:
-        """Return the same zones between other breaks, in the order of ``ends``."""
+        """Return zones with the same states and other ends, in the order of ``ends``."""
         n = self.upper.breaks.size
         upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
         return type(self)(upper, lower)
@@ -80,140 +62,14 @@ class SideZones:
         return all(np.array_equal(one.states, two.states) for one, two in pairs)
 
 
-@dataclass(frozen=True, slots=True)
-class Zones(SideZones):
-    """The zones of the upper and of the lower interface; both have the same edges."""
-
-    @property
-    def edges(self) -> tuple[float, float]:
-        """Return the trailing and the leading edge [mm]."""
-        return self.upper.edges
-
-    @property
-    def is_proper(self) -> bool:
-        """Return whether all breaks are finite and clearly apart, also those of both sides."""
-        apart = np.diff(self.breaks)
-        return bool(np.all(apart > _COINCIDENT * self.width))
-
-    @property
-    def breaks(self) -> Array:
-        """Return the breaks of both interfaces together, each once, (m,) [mm]."""
-        places = {place for side in self.sides for place in side.breaks.tolist()}
-        return np.array(sorted(places))
-
-    def distance(self, other: Zones) -> float:
-        """Return how far apart the breaks of like zones are, over the width.
-
-        Figures depend on transitions to second order: ten times their squared distance counts.
-        """
-        moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
-        edges = max(float(max(move[0], move[-1])) for move in moves)
-        inner = max(float(np.max(move[1:-1], initial=0.0)) for move in moves)
-        share = inner / other.width
-        return max(edges / other.width, _OF_TRANSITIONS * share * share)
-
-    def states_on(self, x: Array) -> States:
-        """Return the states of the nodes on both interfaces, (2, n)."""
-        return np.stack([side.states_on(x) for side in self.sides])
-
-    def aligned(self) -> Zones:
-        """Return these zones with transitions that nearly coincide moved onto their mean."""
-        near = _TOGETHER * self.width
-        places = [side.breaks.copy() for side in self.sides]
-        for i in range(1, places[0].size - 1):
-            apart = np.abs(places[1][1:-1] - places[0][i])
-            if apart.size and apart.min() < near:
-                j = 1 + int(np.argmin(apart))
-                places[0][i] = places[1][j] = 0.5 * (places[0][i] + places[1][j])
-        upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
-        return Zones(upper, lower)
-
-    def moved(
-        self, problem: SheetProblem, state: SheetState, called: LazyZones, *, is_near: bool
-    ) -> Zones:
-        """Return the zones with their breaks moved to where a solution with them puts them.
-
-        ``called``: like zones, of the states that the solution calls for. They say where a
-        transition belongs whose nearest shears do not, or would move it beyond the middle of a
-        zone; and, where ends ``is_near`` their places, also where slip beside it creeps back.
-        """
-        x = problem.mesh.inner
-        proposed = [
-            side.with_proposed_ends(x, state.side(number), friction)
-            for number, (side, friction) in enumerate(
-                zip(self.sides, problem.frictions, strict=True)
-            )
-        ]
-        edges, sides = self._edges_towards(proposed), []
-        for number, (side, wanted) in enumerate(zip(self.sides, proposed, strict=True)):
-            middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
-            inner = wanted.breaks[1:-1]
-            clear = (inner > middles[:-1]) & (inner < middles[1:])
-            if is_near and inner.size:
-                clear &= ~called.creeps_back(number)
-            if not clear.all():
-                inner[~clear] = called.sides[number].breaks[1:-1][~clear]
-            sides.append(Layout(held(side.breaks, wanted.breaks, edges), side.states))
-        return Zones(sides[0], sides[1])
-
-    def _edges_towards(self, proposed: Sequence[Layout]) -> tuple[float, float]:
-        """Return the edges, moved towards proposed ones as far as the zones of both sides allow."""
-        most, edges = LONGEST_MOVE * self.width, np.array(self.edges)
-        upper, lower = (
-            side.stepped_towards(wanted).breaks[[0, -1]] - edges
-            for side, wanted in zip(self.sides, proposed, strict=True)
-        )
-        moves = np.where(np.abs(upper) < np.abs(lower), upper, lower)
-        trailing, leading = (edges + np.clip(moves, -most, most)).tolist()
-        return trailing, leading
-
-    def without_slivers(self) -> Zones:
-        """Return the zones without those too short to matter."""
-        sides = [without_slivers_in(side, SLIVER * self.width) for side in self.sides]
-        return Zones(sides[0], sides[1])
-
-    @classmethod
-    def around(cls, x: Array, state: SheetState, frictions: tuple[float, float]) -> Zones:
-        """Return the zones of nodal states on a mesh that reaches beyond the contact.
-
-        One zone of stick where the contact or its zones are in pieces.
-        """
-        whole = [
-            contact_zones(x, state.side(number), friction)
-            for number, friction in enumerate(frictions)
-        ]
-        edges = whole[0][0].start, whole[0][-1].stop
-        upper, lower = (Layout.of(zones) for zones in whole)
-        if upper is None or lower is None:
-            stick = Layout(np.array(edges), Layout.sticking(1.0).states)
-            return cls(stick, stick)
-        return cls(upper, lower)
-
-    @classmethod
-    def found(
-        cls,
-        x: Array,
-        state: SheetState,
-        frictions: tuple[float, float],
-        edges: tuple[float, float],
-    ) -> Zones | None:
-        """Return the zones of nodal states in a contact with known edges; None if unclear."""
-        sides = [
-            Layout.from_nodes(x, state.side(number), friction, edges)
-            for number, friction in enumerate(frictions)
-        ]
-        upper, lower = sides
-        return None if upper is None or lower is None else cls(upper, lower)
-
-
-def held(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
-    """Return the wanted breaks, each transition held between the middles of its zones."""
+def within_zone_middles(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
+    """Return proposed zone ends, each transition limited to between the middles of its zones."""
     out = breaks.copy()
     middles = 0.5 * (breaks[1:] + breaks[:-1])
     wanted = np.where(np.isfinite(proposed), proposed, breaks)
     out[1:-1] = np.clip(wanted[1:-1], middles[:-1], middles[1:])
     out[0], out[-1] = edges
-    if not np.all(np.diff(out) > 0.0):  # an edge moved across a transition: keep the shares
+    if not np.all(np.diff(out) > 0.0):  # an edge moved past a transition: keep relative places
         share = (breaks - breaks[0]) / (breaks[-1] - breaks[0])
         out = edges[0] + share * (edges[1] - edges[0])
     return np.asarray(out)

@@ -1,1 +1,1 @@
-"""A sheet that resists bending: two interfaces, each with pressure, shear and edges of its own."""
+"""The sheet as a plate: two interfaces, each with its own pressure, shear and edges of contact."""

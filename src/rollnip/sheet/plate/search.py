@@ -1,10 +1,10 @@
-"""The search for the zones of both interfaces of a plate and their ends, on meshes of one size.
+"""Search for the zones of a plate: states and ends of stick and slip, on meshes of one size.
 
-Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
-(`first`). Edges and transitions then lie at nodes of the interface that they belong to, and the
-tractions at the first nodes beside them say where they move
-(`contact.Layout.with_proposed_ends`). Where a solution violates its conditions, the states of its
-nodes are found again.
+The search starts with zones from meshes that extend beyond the contacts, where the states of all
+nodes are found at once (`initial_zones`). Edges and transitions then lie at nodes of the interface
+to which they belong, and the tractions at the first nodes beside them show where they belong
+(`contact.Layout.with_proposed_ends`). Where a solution violates its conditions, the nodal states
+are determined again.
 """
 
 from __future__ import annotations
@@ -21,52 +21,50 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.kind import CLOSELY
-from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
-from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.attempt import (
-    PlateAttempt,
+from rollnip.sheet.formulation import END_TOLERANCE
+from rollnip.sheet.lagged_terms import has_no_terms
+from rollnip.sheet.plate.complementarity import solve_complementarity
+from rollnip.sheet.plate.initial_zones import InitialZones
+from rollnip.sheet.plate.interface import interface_mesh, path_ratio
+from rollnip.sheet.plate.iterate import (
+    PlateIterate,
     added_to_peaks,
-    carried,
+    interpolated_terms,
     pulls_at_edges,
     shear_over,
 )
-from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.first import FirstZones
-from rollnip.sheet.plate.lagged import (
-    change_of,
-    first_lagged,
-    has_none,
+from rollnip.sheet.plate.lagged_terms import (
+    change_of_terms,
+    initial_terms,
     lagged_terms,
 )
-from rollnip.sheet.plate.node_by_node import solve_node_by_node
-from rollnip.sheet.plate.sides import path_ratio, side_mesh
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
+from rollnip.sheet.plate.linear_system import FactorisedPlate
+from rollnip.sheet.plate.system import PlateProblem, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.search import SHORTEST_LAYER
+from rollnip.sheet.secant import SecantSteps
 
 Array = NDArray[np.float64]
 
-_SLACK = 0.1  # of the tolerance: shear over the bound, relative, that counts as rounding
-_FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
-_NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
-# Of all elements, in each zone. The strip between the edges of both contacts decides as much as
-# long zones: where it had six elements on all sizes of mesh, these agreed on wrong figures.
+_SLACK = 0.1  # over the tolerance: relative excess of the shear that counts as rounding
+_FAIRLY_PLACED = 2e-3  # end error over the width, small enough to judge the states
+_NEARLY_PLACED = 0.01  # end error over the width, small enough for secant steps
+_OF_THICKNESS = 0.25  # boundary layer of the pressure on a rigid roller, over the sheet's thickness
+# Least share of all elements in each zone. The strip between the edges of both contacts matters as
+# much as long zones: with six elements in it on all mesh sizes, these agreed on wrong figures.
 _LEAST_SHARE = 0.2
 _MOST_MESHES = 18
-_MOST_ROUGH = 6  # meshes in a row on which ends only move
-_MOST_NODES = 320  # of a mesh whose states are sought all at once
-_MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
+_MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not checked
+_MOST_NODES = 320  # of a mesh whose states are determined all at once
+_MOST_CHANGES = 3  # of the zones' states, before the search starts again
 _MOST_ITERATIONS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 
 
 _Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
-"""Elements in each zone, by interface and how nodes crowd in the zones."""
+"""Number of elements in each zone, by interface and by the crowding of nodes in the zones."""
 
 
 @dataclass(frozen=True)
@@ -76,85 +74,87 @@ class PlateSearch:
     nip: Nip
     model: Model
     kernels: PairKernels
-    moves: Moves[PlateZones] = field(default_factory=Moves)
+    secants: SecantSteps[PlateZones] = field(default_factory=SecantSteps)
 
-    def begun(self, half_width: float, count: int) -> PlateAttempt:
-        """Return a solution on a first mesh, in linear geometry, whose ends are about right."""
+    def start(self, half_width: float, count: int) -> PlateIterate:
+        """Return a first solution in linear geometry whose zone ends are approximately right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
-        zones = self._first.around(half_width, count).without_slivers()
-        attempt, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
-        moved = zones.moved(attempt.problem, attempt.state)
-        lagged = lagged_terms(attempt.problem, self.model.geometry, attempt.state)
-        return replace(attempt, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
+        zones = self._initial_zones.around(half_width, count).without_slivers()
+        iterate, _ = plain._solve_with_zones(zones, (count, _Shapes()), (1.0, inf), None)
+        moved = zones.moved(iterate.problem, iterate.state)
+        lagged = lagged_terms(iterate.problem, self.model.geometry, iterate.state)
+        return replace(iterate, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
-    def _first(self) -> FirstZones:
-        return FirstZones(self.nip, self.kernels)
+    def _initial_zones(self) -> InitialZones:
+        return InitialZones(self.nip, self.kernels)
 
-    def placed(
+    def settle_zones(
         self,
         zones: PlateZones,
         count: int,
-        before: PlateAttempt,
-        closely: float,
-    ) -> PlateAttempt:
-        """Return the solution on meshes of some size with nodes at the ends of its zones.
+        before: PlateIterate,
+        end_tolerance: float,
+    ) -> PlateIterate:
+        """Return the solution on meshes of one size with nodes at the ends of its zones.
 
-        ``before``: a solution with about these zones; ``closely``: allowed error of an end, of the
-        tolerance times the width.
+        ``before``: a solution with approximately these zones; ``end_tolerance``: allowed error of a
+        zone end, over the tolerance times the width.
         """
-        placed = closely * self.model.tolerance
+        allowed = end_tolerance * self.model.tolerance
         try:
-            attempt = self._moved_until(zones, count, before, placed)
+            iterate = self._settle_ends(zones, count, before, allowed)
         except np.linalg.LinAlgError:
             return replace(before, settled=False)
-        if attempt.settled:
-            return attempt
-        start = attempt.zones if attempt.zones.is_proper else zones
+        if iterate.settled:
+            return iterate
+        start = iterate.zones if iterate.zones.is_proper else zones
         try:
-            found = self._first.closer(start, attempt.lagged, count)
-            again = self._moved_until(found, count, attempt, placed)
+            found = self._initial_zones.closer(start, iterate.lagged, count)
+            again = self._settle_ends(found, count, iterate, allowed)
         except np.linalg.LinAlgError:
-            return attempt
-        return again if again.settled or again.misplacement < attempt.misplacement else attempt
+            return iterate
+        return again if again.settled or again.misplacement < iterate.misplacement else iterate
 
-    def _moved_until(
-        self, zones: PlateZones, count: int, before: PlateAttempt, placed: float
-    ) -> PlateAttempt:
-        """Move the ends of zones until they settle, and change zones that are wrong.
+    def _settle_ends(
+        self, zones: PlateZones, count: int, before: PlateIterate, allowed: float
+    ) -> PlateIterate:
+        """Move the zone ends until they converge, and change zones with wrong states.
 
-        Slip that one node asks for is tried; where it does not settle, the zones without it do.
-        ``placed``: allowed error of an end, over the width.
+        Slip that a single node calls for is tried; if it does not converge, the solution without it
+        is returned. ``allowed``: allowed error of a zone end, over the width.
         """
-        self.moves.refined()
+        self.secants.begin_size()
         shapes = _Shapes()
         changes = rough_ones = 0
         known = min(before.misplacement, 1.0)
-        attempt, misplacement = before, inf
-        fair: PlateAttempt | None = None
+        iterate, misplacement = before, inf
+        fair: PlateIterate | None = None
         for _ in range(_MOST_MESHES):
-            zones = zones.without_slivers().reopened(CLOSELY * self.model.tolerance)
+            zones = zones.without_slivers().reopened(END_TOLERANCE * self.model.tolerance)
             if not zones.is_proper:
                 break
-            attempt, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), attempt)
-            problem = attempt.problem
-            proposed = zones.moved(problem, attempt.state)
+            iterate, is_fine = self._solve_with_zones(
+                zones, (count, shapes), (known, misplacement), iterate
+            )
+            problem = iterate.problem
+            proposed = zones.moved(problem, iterate.state)
             misplacement = proposed.distance(zones)
             known = min(known, misplacement)
-            violated = violation(attempt)
+            violated = violation(iterate)
             is_fair = violated <= self.model.tolerance
-            is_met = max(violated, shear_over(attempt)) <= self._slack
-            is_placed = misplacement <= placed and attempt.settled and is_fine
-            is_placed = is_placed and not pulls_at_edges(attempt)
-            is_placed = is_placed and added_to_peaks(attempt, proposed) <= self.model.tolerance
+            is_met = max(violated, shear_over(iterate)) <= self._slack
+            is_placed = misplacement <= allowed and iterate.settled and is_fine
+            is_placed = is_placed and not pulls_at_edges(iterate)
+            is_placed = is_placed and added_to_peaks(iterate, proposed) <= self.model.tolerance
             if is_met and is_placed:
-                return replace(attempt, zones=proposed, misplacement=misplacement)
+                return replace(iterate, zones=proposed, misplacement=misplacement)
             if is_fair and is_placed and fair is None:
-                fair = replace(attempt, zones=proposed, misplacement=misplacement)
+                fair = replace(iterate, zones=proposed, misplacement=misplacement)
             rough = misplacement > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met or (is_fair and not is_placed)):
-                found = self._found(attempt, proposed)
+                found = self._consistent_zones(iterate, proposed)
                 if found is None:
                     break
                 if not found.is_like(zones):
@@ -164,32 +164,34 @@ class PlateSearch:
                     zones = found
                     shapes.clear()
                     continue
-                proposed = zones.moved(problem, attempt.state, found)
-                if is_placed and proposed.distance(zones) <= placed:
+                proposed = zones.moved(problem, iterate.state, found)
+                if is_placed and proposed.distance(zones) <= allowed:
                     break
-            zones = proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
-        return _unplaced(zones, attempt, misplacement) if fair is None else fair
+            zones = (
+                proposed if misplacement > _NEARLY_PLACED else self.secants.next(zones, proposed)
+            )
+        return _unsettled(zones, iterate, misplacement) if fair is None else fair
 
-    def _on_mesh(
+    def _solve_with_zones(
         self,
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
         misplacement: tuple[float, float],
-        before: PlateAttempt | None,
-    ) -> tuple[PlateAttempt, bool]:
-        """Solve between given ends of zones; ``sizes`` and what is returned: see `_problem`.
+        before: PlateIterate | None,
+    ) -> tuple[PlateIterate, bool]:
+        """Solve for given zones; for ``sizes`` and the second value returned see `_problem`.
 
-        ``misplacement``: how far ends were off, the least and on the last mesh of this size.
+        ``misplacement``: error of the zone ends, smallest so far and on the last mesh of this size.
         """
         problem, is_fine = self._problem(zones, sizes, misplacement[0], before)
-        start = first_lagged(problem) if before is None else carried(before, problem)
+        start = initial_terms(problem) if before is None else interpolated_terms(before, problem)
         steps = 0 if before is None else before.steps
-        return self._solved(problem, zones, start, steps, misplacement[1]), is_fine
+        return self._solve_on_mesh(problem, zones, start, steps, misplacement[1]), is_fine
 
     @cached_property
     def boundary(self) -> float:
-        """Length of the shortest boundary layer at the ends of zones [mm]."""
-        return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
+        """Length of the shortest boundary layer at zone ends [mm]."""
+        return shortest_layer(self.nip)
 
     def _boundary_of(self, side: int) -> float:
         """Return the length of the shortest boundary layer on one interface [mm].
@@ -209,19 +211,19 @@ class PlateSearch:
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
         known: float,
-        before: PlateAttempt | None,
+        before: PlateIterate | None,
     ) -> tuple[PlateProblem, bool]:
-        """Assemble the problem on meshes with nodes at the ends of zones.
+        """Assemble the problem on meshes with nodes at the zone ends.
 
-        ``sizes``: about how many elements, and those of meshes before, which are kept: while ends
-        move, solutions on meshes of one shape differ by the moves alone. Return also whether nodes
-        crowd there as much as boundary layers ask for; they do not where ends are ``known`` to a
-        larger share of the width only.
+        ``sizes``: approximate number of elements, and the shapes of earlier meshes, which are
+        reused: solutions on meshes of one shape differ only by the moves of the ends. Also return
+        whether nodes crowd at the ends as much as the boundary layers require; they do not where
+        the ends are ``known`` only to a larger fraction of the width.
         """
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
             roller = (self.nip.upper, self.nip.lower)[number]
-            unlike = unlike_layer((roller,), self.model.tolerance) * side.width
+            unlike = mismatch_layer((roller,), self.model.tolerance) * side.width
             least = max(min(self._boundary_of(number), unlike), SHORTEST_LAYER * side.width)
             breaks = zones.breaks_of_mesh(number, self._thickness, peaks=roller.is_rigid)
             crowding = crowding_of(breaks, max(least, known * side.width))
@@ -232,14 +234,14 @@ class PlateSearch:
                 shapes[number, crowding] = kept
             nodes = cosine_nodes(breaks, kept, crowding)
             fine = subdivided(nodes, kept, crowding)
-            meshes.append(side_mesh(nodes, fine, self._holding(before, number), number))
+            meshes.append(interface_mesh(nodes, fine, self._kernels_for(before, number), number))
         both = meshes[0], meshes[1]
-        return PlateProblem.on(self.nip, both, self._arcs(both, before)), is_fine
+        return PlateProblem.on(self.nip, both, self._path_ratios(both, before)), is_fine
 
-    def _arcs(
-        self, meshes: tuple[Mesh, Mesh], before: PlateAttempt | None
+    def _path_ratios(
+        self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
-        """Return ds/dx of the sheet's path in the solution before, at the finer nodes of meshes."""
+        """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
         if before is None or self.model.geometry not in FINITE:
             return None
         out = []
@@ -250,10 +252,10 @@ class PlateSearch:
             out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
-    def _holding(self, before: PlateAttempt | None, side: int) -> PairKernels:
-        """Return influence functions with the second order of one roller in the solution before.
+    def _kernels_for(self, before: PlateIterate | None, side: int) -> PairKernels:
+        """Return influence functions with one roller's second-order terms of the previous solution.
 
-        Those that have no second order are as they are.
+        Influence functions without second-order terms are returned unchanged.
         """
         if self.kernels.is_fixed:
             return self.kernels
@@ -262,49 +264,56 @@ class PlateSearch:
             held = before.problem.meshes[side].second_fields(before.state.side(side))
         return replace(self.kernels, held=held)
 
-    def _solved(
+    def _solve_on_mesh(
         self,
         problem: PlateProblem,
         zones: PlateZones,
-        lagged: LaggedPlate,
+        lagged: PlateTerms,
         steps: int,
         misplacement: float,
-    ) -> PlateAttempt:
-        """Solve on two meshes with given zones, in iterations of the lagged terms."""
+    ) -> PlateIterate:
+        """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, still = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, _STILL * self.model.tolerance
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
-            if has_none(problem, self.model.geometry):
+            if has_no_terms(problem.nip, self.model.geometry):
                 break
             updated = lagged_terms(problem, self.model.geometry, state, lagged)
-            change, lagged = change_of(updated, lagged, problem, state), updated
-            if not change > still:
+            change, lagged = change_of_terms(updated, lagged, problem, state), updated
+            if not change > settled_change:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)
-        return PlateAttempt(
-            zones, problem, state, lagged, change, inf, steps, bool(change <= still and finite)
+        return PlateIterate(
+            zones,
+            problem,
+            state,
+            lagged,
+            change,
+            inf,
+            steps,
+            bool(change <= settled_change and finite),
         )
 
     @property
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _found(self, attempt: PlateAttempt, edges: PlateZones) -> PlateZones | None:
-        """Return the zones between known edges that suit a solution; None where there are none."""
-        if max(mesh.inner.size for mesh in attempt.problem.meshes) > _MOST_NODES:
+    def _consistent_zones(self, iterate: PlateIterate, edges: PlateZones) -> PlateZones | None:
+        """Return zones with consistent states between known edges; None where there are none."""
+        if max(mesh.inner.size for mesh in iterate.problem.meshes) > _MOST_NODES:
             return None
         try:
-            state, _ = solve_node_by_node(attempt.problem, attempt.lagged, attempt.zones.edges)
+            state, _ = solve_complementarity(iterate.problem, iterate.lagged, iterate.zones.edges)
         except np.linalg.LinAlgError:
             return None
-        found = edges.found(attempt.problem, state)
+        found = edges.found(iterate.problem, state)
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, attempt: PlateAttempt, misplacement: float) -> PlateAttempt:
-    """Return the last solution, whose ends have not settled."""
-    proper = zones if zones.is_proper else attempt.zones
-    return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
+def _unsettled(zones: PlateZones, iterate: PlateIterate, misplacement: float) -> PlateIterate:
+    """Return the last solution, marked as not converged."""
+    proper = zones if zones.is_proper else iterate.zones
+    return replace(iterate, zones=proper, settled=False, misplacement=misplacement)

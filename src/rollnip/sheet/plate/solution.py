@@ -1,4 +1,4 @@
-"""The result of a nip with a sheet that resists bending."""
+"""The solution of a nip with a plate."""
 
 from __future__ import annotations
 
@@ -20,49 +20,49 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.plate.attempt import PlateAttempt
-from rollnip.sheet.plate.curved import direction_of
-from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.sides import SIGNS, values_at
+from rollnip.sheet.membrane.system import MembraneState
+from rollnip.sheet.plate.curved_path import direction_of
+from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.plate.iterate import PlateIterate
+from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
-from rollnip.sheet.system import SheetState
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlateSolution(SheetSolution):
-    """A solved nip with a sheet that resists bending.
+    """A solved nip with a sheet whose bending stiffness is included.
 
-    Everything that `SheetSolution` says; pressure, nip width, contact and gap are those of the
-    upper interface, those of the lower one are in ``sheet``.
+    It offers what `SheetSolution` does; pressure, nip width, contact and gap are those of the upper
+    interface, those of the lower one are in ``sheet``.
     """
 
     @property
     def _gap(self) -> Array:
-        """Gap above the sheet [mm]."""
+        """Gap between the upper surface and the sheet [mm]."""
         above = self.deformed_surfaces.upper - self._height
         return np.asarray(above + self._thinned_faces[0])
 
     @property
     def bends(self) -> bool:
-        """Whether the sheet's stiffness against bending is counted: it is."""
+        """Whether the sheet's bending stiffness is included: it is."""
         return True
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
-        """Return errors by name, and what terms of higher order in the path's slope may change.
+        """Return errors by name, including those due to terms of higher order in the path's slope.
 
-        The moment that bends the sheet, and the strain of its faces, are known to the square of
-        the slope, which the tension of a stiff sheet and the width on a bare roller feel. There the
-        pressure ends in a peak as long as the sheet is thick, known as well as one beside an edge
-        under a stiff skin (decision 44).
+        The bending moment of the sheet and the strain of its faces are accurate to the square of
+        the slope, which affects the tension of a stiff sheet and the width on a bare roller. There
+        the pressure ends in a peak as long as the sheet is thick, which is as uncertain as one
+        beside an edge under a stiff skin (decision 44).
         """
         out = super()._claimed(figures, errors)
         if self.model.geometry not in FINITE:
             return out
-        sheet, (slope, curvature) = self._standing.problem.sheet, self._path
+        sheet, (slope, curvature) = self._iterate.problem.sheet, self._path
         strain = 0.5 * sheet.thickness * curvature * slope
         for name in ("tension_max", "tension_min"):
             out[name] = max(out[name], strain / sheet.stretch_by_tension)
@@ -75,20 +75,20 @@ class PlateSolution(SheetSolution):
         return out
 
     def _traction_slope(self) -> float:
-        attempt, tractions = self._standing, []
+        iterate, tractions = self._iterate, []
         for creepage in (0.0, 1.0):  # the tractions are linear in it
             nip = replace(self.nip, tangential=Creepage(creepage))
-            system = FactorisedPlate.of(replace(attempt.problem, nip=nip), attempt.state.states)
-            shear = system.solved(attempt.lagged).shear[1]
-            tractions.append(float(attempt.problem.meshes[1].weights @ shear))
+            system = FactorisedPlate.of(replace(iterate.problem, nip=nip), iterate.state.states)
+            shear = system.solved(iterate.lagged).shear[1]
+            tractions.append(float(iterate.problem.meshes[1].weights @ shear))
         return abs(tractions[1] - tractions[0])
 
     @cached_property
     def _path(self) -> tuple[float, float]:
-        """Return the largest square of the path's slope in the contacts, and its curvature."""
-        attempt, slope, curvature = self._standing, 0.0, 0.0
-        rotations = attempt.problem.rotations(attempt.state, attempt.lagged.curved)
-        for mesh, rotation in zip(attempt.problem.meshes, rotations, strict=True):
+        """Return the largest squared slope and curvature of the path in the contacts."""
+        iterate, slope, curvature = self._iterate, 0.0, 0.0
+        rotations = iterate.problem.rotations(iterate.state, iterate.lagged.curved)
+        for mesh, rotation in zip(iterate.problem.meshes, rotations, strict=True):
             x, turned = mesh.inner, rotation[:-1]
             slope = max(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
@@ -97,34 +97,34 @@ class PlateSolution(SheetSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        attempt = self._standing
-        lower = self._lower_round
+        iterate = self._iterate
+        lower = self._lower_mesh_solution
         return SheetProfiles(
             x,
             self._on_lower(x, lower.shear),
             self._tension(x),
-            attempt.problem.strain_at(attempt.state, x),
+            iterate.problem.strain_at(iterate.state, x),
             self._slip(1),
             self._on_lower(x, lower.pressure),
             self._height,
         )
 
     @property
-    def _state(self) -> SheetState:
-        return cast(SheetState, self.final.state)
+    def _state(self) -> MembraneState:
+        return cast(MembraneState, self.final.state)
 
     @property
-    def _standing(self) -> PlateAttempt:
-        return self._plate_refined.attempt
+    def _iterate(self) -> PlateIterate:
+        return self._plate_refined.iterate
 
     @property
-    def _plate_refined(self) -> Refined[PlateAttempt]:
+    def _plate_refined(self) -> Refined[PlateIterate]:
         refined: Any = self.refined
-        return cast(Refined[PlateAttempt], refined)
+        return cast(Refined[PlateIterate], refined)
 
     @cached_property
-    def _lower_round(self) -> MeshSolution:
-        return lower_round(self._plate_refined, self.final)
+    def _lower_mesh_solution(self) -> MeshSolution:
+        return lower_mesh_solution(self._plate_refined, self.final)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         one = self._of_side(SIDES.index("upper" if roller == "upper" else "lower"))
@@ -132,10 +132,10 @@ class PlateSolution(SheetSolution):
         return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
 
     def _of_side(self, side: int) -> MeshSolution:
-        return self.final if side == 0 else self._lower_round
+        return self.final if side == 0 else self._lower_mesh_solution
 
     def _on_lower(self, x: Array, traction: Array) -> Array:
-        return np.interp(x, self._lower_round.x, traction, left=0.0, right=0.0)
+        return np.interp(x, self._lower_mesh_solution.x, traction, left=0.0, right=0.0)
 
     def _strain(self, x: Array, side: int) -> Array:
         geometry = self.model.geometry
@@ -143,41 +143,43 @@ class PlateSolution(SheetSolution):
         return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
-        attempt = self._standing
-        return attempt.problem.tension_at(attempt.state, x)
+        iterate = self._iterate
+        return iterate.problem.tension_at(iterate.state, x)
 
     @cached_property
     def _height(self) -> Array:
-        """Height of the sheet at ``_points``, its thickness left out [mm]."""
-        attempt = self._standing
-        return attempt.problem.height_at(attempt.state, self._points[0], attempt.lagged.curved)
+        """Height of the sheet's path at ``_points``, without its thickness [mm]."""
+        iterate = self._iterate
+        return iterate.problem.height_at(iterate.state, self._points[0], iterate.lagged.curved)
 
     @cached_property
     def _thinned_faces(self) -> Array:
-        attempt = self._standing
-        return attempt.problem.thinned_at(attempt.state, self._points[0])
+        iterate = self._iterate
+        return iterate.problem.face_indentations_at(iterate.state, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        attempt, four = self._standing, []
-        x = np.unique(np.concatenate([fine_points(self.final), fine_points(self._lower_round)]))
+        iterate, four = self._iterate, []
+        x = np.unique(
+            np.concatenate([fine_points(self.final), fine_points(self._lower_mesh_solution)])
+        )
         for side in (0, 1):
-            one, mesh = self._of_side(side), attempt.problem.meshes[side]
+            one, mesh = self._of_side(side), iterate.problem.meshes[side]
             acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
             made = pair_displacements(self.kernels, x, one.nodes, acting)
             xx, zz, xz = made[3 * side : 3 * side + 3]
             rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
             if not mesh.kernels.is_linear:
-                rows += mesh.second(attempt.state.side(side), x).four[2 * side : 2 * side + 2]
+                rows += mesh.second(iterate.state.side(side), x).four[2 * side : 2 * side + 2]
             four.append(rows)
         return x, Displacements(np.concatenate(four))
 
     def _sliding(self) -> tuple[Array, Array]:
-        attempt, state = self._standing, self._standing.state
-        (mu_u, mu_l), (above, below) = attempt.problem.frictions, state.pressure
+        iterate, state = self._iterate, self._iterate.state
+        (mu_u, mu_l), (above, below) = iterate.problem.frictions, state.pressure
         slid = replace(state, shear=(mu_u * above, -mu_l * below), creepages=(0.0, 0.0))
-        (_, upper), (_, lower) = attempt.problem.gaps_and_creeps(slid, attempt.lagged)
-        first, second = (mesh.dx[:-1] for mesh in attempt.problem.meshes)
+        (_, upper), (_, lower) = iterate.problem.gaps_and_creeps(slid, iterate.lagged)
+        first, second = (mesh.dx[:-1] for mesh in iterate.problem.meshes)
         return upper[:-1] / first, lower[:-1] / second
 
     def _slip(self, side: int) -> Array | None:
@@ -185,18 +187,18 @@ class PlateSolution(SheetSolution):
         if speed is None:
             return None
         x, u = self._points
-        attempt = self._standing
-        dx, problem, state = np.diff(x), attempt.problem, attempt.state
+        iterate = self._iterate
+        dx, problem, state = np.diff(x), iterate.problem, iterate.state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)
         face = 0.5 * (strain[1:] + strain[:-1])
-        curved, half = attempt.lagged.curved, 0.5 * problem.sheet.thickness
+        curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
         turned = direction_of(problem.rotation_at(state, x, curved), curved)
         face -= SIGNS[side] * half * np.diff(turned) / dx
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
-        for zone in attempt.zones.sides[side].zones:
+        for zone in iterate.zones.sides[side].zones:
             within = inside_zone(x, zone)
             out[within] = 0.0
             if zone.state != State.STICK:
@@ -204,76 +206,59 @@ class PlateSolution(SheetSolution):
         return out
 
 
-def plate_round(refined: Refined[PlateAttempt]) -> MeshSolution:
-    """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
-    attempt = refined.attempt
-    state, problem = attempt.state, attempt.problem
+def plate_mesh_solution(refined: Refined[PlateIterate]) -> MeshSolution:
+    """Return a solution in the form of a bare nip's, with the upper interface's tractions."""
+    iterate = refined.iterate
+    state, problem = iterate.state, iterate.problem
     upper, lower = problem.meshes
     shear_lower = values_at(lower, upper.inner) @ state.shear[1]
     one = state.side(0)
-    both = SheetState(
+    both = MembraneState(
         states=one.states,
         pressure=one.pressure,
         shear=one.shear,
         approach=one.approach,
         creepage=state.creepages[0],
-        steps=attempt.steps,
+        steps=iterate.steps,
         settled=True,
         states_lower=state.states[1],
         shear_lower=shear_lower,
         creepage_lower=state.creepages[1],
     )
-    n = upper.inner.size
-    return MeshSolution(
-        mesh=upper,
-        problem=_as_problem(attempt, 0),
-        state=both,
-        second=SecondOrder(
-            attempt.lagged.clearance[0],
-            np.zeros(n),
-            attempt.lagged.offsets[0],
-            attempt.lagged.traction,
-        ),
-        zones=attempt.zones.upper.zones,
-        figures=refined.figures.watched,
-        error=refined.errors.watched,
-        steps=attempt.steps,
-        settled=attempt.settled,
-        geometry_change=attempt.change,
-        residual=refined.residual,
-        cut=refined.cut,
-    )
+    lagged = iterate.lagged
+    terms = lagged.clearance[0], lagged.offsets[0]
+    return refined.upper_mesh_solution(_as_problem(iterate, 0), both, terms)
 
 
-def lower_round(refined: Refined[PlateAttempt], upper: MeshSolution) -> MeshSolution:
-    """Return the round of the lower interface beside that of the upper one."""
-    attempt = refined.attempt
-    mesh, lagged = attempt.problem.meshes[1], attempt.lagged
+def lower_mesh_solution(refined: Refined[PlateIterate], upper: MeshSolution) -> MeshSolution:
+    """Return the `MeshSolution` of the lower interface, from that of the upper one."""
+    iterate = refined.iterate
+    mesh, lagged = iterate.problem.meshes[1], iterate.lagged
     return replace(
         upper,
         mesh=mesh,
-        problem=_as_problem(attempt, 1),
-        state=attempt.state.side(1, creepage=attempt.state.creepage),
+        problem=_as_problem(iterate, 1),
+        state=iterate.state.side(1, creepage=iterate.state.creepage),
         second=SecondOrder(
             lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
         ),
-        zones=attempt.zones.lower.zones,
+        zones=iterate.zones.lower.zones,
         figures=refined.lower.watched,
         error=refined.lower_errors.watched,
     )
 
 
-def _as_problem(attempt: PlateAttempt, side: int) -> ContactProblem:
-    """Return what a bare nip on the mesh of one interface would be."""
-    problem, mesh = attempt.problem, attempt.problem.meshes[side]
+def _as_problem(iterate: PlateIterate, side: int) -> ContactProblem:
+    """Return the contact problem that a bare nip would have on the mesh of one interface."""
+    problem, mesh = iterate.problem, iterate.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
     control = Control(
-        load=None, approach=attempt.state.approach, traction=None, creepage=attempt.state.creepage
+        load=None, approach=iterate.state.approach, traction=None, creepage=iterate.state.creepage
     )
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * curvature * mesh.inner**2 + attempt.lagged.clearance[side],
+        clearance=0.5 * curvature * mesh.inner**2 + iterate.lagged.clearance[side],
         influence=mesh.influence,
         creep_length=mesh.dx,
         creep_offset=np.zeros(mesh.inner.size),

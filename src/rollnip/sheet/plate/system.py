@@ -1,18 +1,19 @@
-"""Two interfaces, two pressures: the linear system that given states of both interfaces make.
+"""Discrete equations of a plate in the nip: two interfaces, each with its own pressure.
 
-Unknowns on either interface are its pressure and shear, on a mesh of its own between its own edges;
-then the approach, both creepages, and the height y_0 and the rotation theta of the sheet. With y
-the height of the sheet's middle (`rollnip.sheet.plate.bending`), s_u and s_l what its faces give
-way towards the middle, N its tension and e its strain,
+Unknowns on each interface are its pressure and shear, on a mesh of its own between its own edges;
+then the approach, both creepages, and the height y_0 and the rotation theta of the sheet. With the
+height y of the sheet's middle (`rollnip.sheet.plate.bending`), the displacements s_u and s_l of its
+faces towards the middle, its tension N and its strain e,
 
     gap, upper   = x^2/(2 R_u) - delta + u_z,u - y + s_u + b N/2                = 0 in contact
     gap, lower   = x^2/(2 R_l)         + u_z,l + y + s_l + b N/2                = 0 in contact
     creep, upper = xi_u dx + int (stretch_u - 1 - e + h y''/2) dx               = 0 in stick
     creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
 
-e = a N + b (p_u + p_l)/2; the faces of a bent sheet are stretched by -+ h y''/2. To all of these
-comes what an elastic layer has more of (`Spread.sheared`, `Spread.warped`). All forces on the
-sheet add up to nothing across it, and the moment of the nip on it is what its tension rights.
+with e = a N + b (p_u + p_l)/2; bending stretches the faces by -+ h y''/2. The local deformation of
+an elastic layer is added to all of these (`PiecewiseLoads.face_shift`,
+`PiecewiseLoads.stretch_integral`). The forces across the sheet are in equilibrium, and its tension
+balances the moment of the nip on it.
 """
 
 from __future__ import annotations
@@ -26,12 +27,18 @@ from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.plate.bending import Plate
-from rollnip.sheet.plate.curved import CurvedLoad
-from rollnip.sheet.plate.matrix import Pair, gaps_and_creeps_of
-from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, stretch_by, values_at
-from rollnip.sheet.plate.spread import Spread, about
-from rollnip.sheet.system import frictions_of
+from rollnip.sheet.plate.curved_path import CurvedLoad
+from rollnip.sheet.plate.interface import (
+    SIGNS,
+    curvatures,
+    own_displacements,
+    stretch_by,
+    values_at,
+)
+from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
+from rollnip.sheet.plate.matrices import Pair, influence_matrices
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -39,7 +46,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class PlateState:
-    """A solution: tractions of both interfaces on their own meshes, and what else is unknown.
+    """A solution of the plate problem: tractions on both meshes, and the other unknowns.
 
     Attributes
     ----------
@@ -69,7 +76,7 @@ class PlateState:
         return np.concatenate([traction for side in parts for traction in side])
 
     def side(self, number: int, *, creepage: float | None = None) -> ContactState:
-        """Return one interface as if it were all of the contact."""
+        """Return one interface as a contact state of its own."""
         return ContactState(
             states=self.states[number],
             pressure=self.pressure[number],
@@ -82,16 +89,17 @@ class PlateState:
 
 
 @dataclass(frozen=True, slots=True)
-class LaggedPlate:
-    """Terms that depend on the solution itself, taken from the last solution.
+class PlateTerms:
+    """Terms that depend on the solution, evaluated from the previous iterate.
 
     Attributes
     ----------
-    clearance : added to the gaps of either interface, each (n,) [mm].
+    clearance : added to the gaps of both interfaces, each (n,) [mm].
     offsets : added to the creeps, each (n,) [mm].
-    traction : T_l that gives the wanted torque [N/mm]; None where none is wanted.
-    lean : line load that the shears take from the pressure [N/mm].
-    curved : what acts on the sheet because its path is curved; None where that is left out.
+    traction : prescribed T_l, or T_l that gives the prescribed torque [N/mm]; None for prescribed
+        creepage.
+    lean : part of the line load that is carried by the shears instead of the pressure [N/mm].
+    curved : load on the sheet due to its curved path; None where it is neglected.
     """
 
     clearance: Pair
@@ -103,28 +111,29 @@ class LaggedPlate:
 
 @dataclass(frozen=True)
 class PlateProblem:
-    """The discrete problem on two meshes: everything that does not depend on the states.
+    """The discrete problem on two meshes, without the states of the nodes.
 
     Attributes
     ----------
-    nip, sheet, plate : the problem.
-    meshes, spreads : of the upper and the lower interface.
-    pulls : spreads of shears along the sheet's path: their `beyond` are int x^k/k! q ds.
-    frictions : coefficients of both.
+    nip, sheet, plate : the physical problem.
+    meshes, loads : of the upper and the lower interface.
+    path_shears : shears along the sheet's path, whose `tail_moments` are int x^k/k! q ds.
+    frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
-    turned : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise [1/MPa].
+    rotation_influence : (m, r) rotation of the sections at nodes[1:] of both meshes, likewise
+        [1/MPa].
     """
 
     nip: Nip
     sheet: Sheet
     plate: Plate
     meshes: tuple[Mesh, Mesh]
-    spreads: tuple[Spread, Spread]
-    pulls: tuple[Spread, Spread]
+    loads: tuple[PiecewiseLoads, PiecewiseLoads]
+    path_shears: tuple[PiecewiseLoads, PiecewiseLoads]
     frictions: tuple[float, float]
     matrix: Array
-    turned: Array
+    rotation_influence: Array
 
     @classmethod
     def on(
@@ -132,25 +141,28 @@ class PlateProblem:
     ) -> PlateProblem:
         """Assemble the problem of a nip with a plate on meshes of both interfaces.
 
-        ``arcs``: ds/dx of the sheet's path at the finer nodes of either mesh; None: all 1.
+        ``arcs``: ds/dx of the sheet's path at the fine nodes of each mesh; None: all 1.
         """
         sheet = nip.sheet
         assert sheet is not None
         plate = Plate.of(sheet)
-        spreads = Spread.on(meshes[0], sheet, plate), Spread.on(meshes[1], sheet, plate)
-        pulls = spreads
+        loads = (
+            PiecewiseLoads.on(meshes[0], sheet, plate),
+            PiecewiseLoads.on(meshes[1], sheet, plate),
+        )
+        path_shears = loads
         if arcs is not None:
             upper, lower = (
-                Spread.on(mesh, sheet, plate, along)
+                PiecewiseLoads.on(mesh, sheet, plate, along)
                 for mesh, along in zip(meshes, arcs, strict=True)
             )
-            pulls = upper, lower
-        made = gaps_and_creeps_of(meshes, spreads, pulls)
-        return cls(nip, sheet, plate, meshes, spreads, pulls, frictions_of(nip), *made)
+            path_shears = upper, lower
+        made = influence_matrices(meshes, loads, path_shears)
+        return cls(nip, sheet, plate, meshes, loads, path_shears, frictions_of(nip), *made)
 
     @property
     def starts(self) -> tuple[int, int, int, int, int]:
-        """Return where p_u, q_u, p_l and q_l begin among the tractions, and where they end."""
+        """Return the start indices of p_u, q_u, p_l, q_l among the tractions, and the end."""
         n, m = (mesh.inner.size for mesh in self.meshes)
         return 0, n, 2 * n, 2 * n + m, 2 * (n + m)
 
@@ -159,8 +171,8 @@ class PlateProblem:
         """Return nodes[1:] of the upper, then of the lower mesh, (m,) [mm]."""
         return np.concatenate([mesh.nodes[1:] for mesh in self.meshes])
 
-    def right(self, lagged: LaggedPlate) -> Array:
-        """Return gaps and creeps without unknowns, in the order of the rows of ``matrix``."""
+    def constant_terms(self, lagged: PlateTerms) -> Array:
+        """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
         sheet, pulled = self.sheet, self.sheet.tension_in
         out, half = [], 0.5 * sheet.thickness
         for side, (mesh, curvature) in enumerate(
@@ -169,7 +181,7 @@ class PlateProblem:
             gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
             creep = lagged.offsets[side]
             if lagged.curved is not None:
-                height, turned = lagged.curved.bent_at(mesh.nodes[1:])
+                height, turned = lagged.curved.deflection_at(mesh.nodes[1:])
                 gap = gap - SIGNS[side] * height[:-1]
                 creep = creep + half * np.diff(turned)
             out.append(gap + 0.5 * sheet.stretch_by_pressure * pulled)
@@ -178,10 +190,12 @@ class PlateProblem:
         return np.concatenate(out)
 
     def gaps_and_creeps(
-        self, state: PlateState, lagged: LaggedPlate
+        self, state: PlateState, lagged: PlateTerms
     ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-        """Return the gap at the nodes and the creep of the intervals, of either interface [mm]."""
-        made = np.split(self.matrix @ state.tractions + self.right(lagged), self.starts[1:-1])
+        """Return the gap at the nodes and the creep of the intervals, for each interface [mm]."""
+        made = np.split(
+            self.matrix @ state.tractions + self.constant_terms(lagged), self.starts[1:-1]
+        )
         for side, mesh in enumerate(self.meshes):
             moved = state.height + state.rotation * mesh.inner
             made[2 * side] -= SIGNS[side] * moved
@@ -189,15 +203,15 @@ class PlateProblem:
         made[0] -= state.approach
         return (made[0], made[1]), (made[2], made[3])
 
-    def creeps(self, state: PlateState, lagged: LaggedPlate) -> tuple[Array, Array]:
-        """Return the creep of either interface over each interval, each (n,) [mm]."""
+    def creeps(self, state: PlateState, lagged: PlateTerms) -> tuple[Array, Array]:
+        """Return the creep of each interface over each interval, each (n,) [mm]."""
         (_, upper), (_, lower) = self.gaps_and_creeps(state, lagged)
         return upper, lower
 
-    def sheared(self, state: PlateState, side: int) -> Array:
-        """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
-        one, mesh = self.pulls[side], self.meshes[side]
-        beyond = one.of(state.shear[side]).moments_beyond(mesh.inner)[0, :, 0]
+    def shear_forces(self, state: PlateState, side: int) -> Array:
+        """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
+        one, mesh = self.path_shears[side], self.meshes[side]
+        beyond = one.of(state.shear[side]).tail_moments_at(mesh.inner)[0, :, 0]
         return np.asarray(-np.diff(beyond))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
@@ -207,64 +221,64 @@ class PlateProblem:
         return mesh.with_second(flat, state.side(side))
 
     def tension_at(self, state: PlateState, x: Array) -> Array:
-        """Return the tension of the sheet at some places, (m,) [N/mm]."""
+        """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
-            one.of(shear).moments_beyond(x)[0, :, 0]
-            for one, shear in zip(self.pulls, state.shear, strict=True)
+            one.of(shear).tail_moments_at(x)[0, :, 0]
+            for one, shear in zip(self.path_shears, state.shear, strict=True)
         )
         return np.asarray(self.sheet.tension_in - upper + lower)
 
     def height_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the height of the sheet's middle at some places, (m,) [mm]."""
+        """Return the height of the sheet's middle at given places, (m,) [mm]."""
         out = state.height + state.rotation * x
         if curved is not None:
-            out += curved.bent_at(x)[0]
+            out += curved.deflection_at(x)[0]
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
             out -= SIGNS[side] * pressed[0] + half * sheared[1]
         return np.asarray(out)
 
     def rotation_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the rotation of the sheet's sections at some places, (m,)."""
+        """Return the rotation of the sheet's sections at given places, (m,)."""
         out = np.full(x.size, state.rotation)
         if curved is not None:
-            out += curved.bent_at(x)[1]
+            out += curved.deflection_at(x)[1]
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
             out -= SIGNS[side] * pressed[1] + half * sheared[2]
         return out
 
     def rotations(self, state: PlateState, curved: CurvedLoad | None = None) -> tuple[Array, Array]:
-        """Return the rotation of the sheet's sections at nodes[1:] of either mesh."""
-        out = state.rotation + self.turned @ state.tractions
+        """Return the rotation of the sheet's sections at nodes[1:] of both meshes."""
+        out = state.rotation + self.rotation_influence @ state.tractions
         if curved is not None:
-            out += curved.bent_at(self.places)[1]
+            out += curved.deflection_at(self.places)[1]
         upper, lower = np.split(out, [self.meshes[0].nodes.size - 1])
         return upper, lower
 
-    def _bent_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
-        """Return what pressure and shear of either interface do as loads, see `Spread.bent`."""
+    def _deflections_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
+        """Return the deflections by pressure and by shear, see `PiecewiseLoads.deflection`."""
         out = []
-        for one, *tractions in zip(self.spreads, state.pressure, state.shear, strict=True):
+        for one, *tractions in zip(self.loads, state.pressure, state.shear, strict=True):
             both = one.of(np.stack(tractions, axis=1))
-            made = both.bent(x, both.moments_beyond(x))
+            made = both.deflection(x, both.tail_moments_at(x))
             out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
         return out
 
-    def thinned_at(self, state: PlateState, x: Array) -> Array:
-        """Return how far both faces give way towards the middle at some places, (2, m) [mm]."""
+    def face_indentations_at(self, state: PlateState, x: Array) -> Array:
+        """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
         both = np.tile(x, 2)
         out = np.full((2, x.size), 0.5 * self.sheet.stretch_by_pressure * self.sheet.tension_in)
-        for side, one in enumerate(self.spreads):
+        for side, one in enumerate(self.loads):
             far = np.repeat(np.arange(2) != side, x.size)
-            pulled = self.pulls[side].of(state.shear[side])
-            warped = pulled.warped(both, far, pulled.moments_beyond(both))
-            made = one.of(state.pressure[side]).squeezed(both, far) - SIGNS[side] * warped
+            pulled = self.path_shears[side].of(state.shear[side])
+            warped = pulled.stretch_integral(both, far, pulled.tail_moments_at(both))
+            made = one.of(state.pressure[side]).face_indentation(both, far) - SIGNS[side] * warped
             out += made.reshape(2, x.size)
         return out
 
     def strain_at(self, state: PlateState, x: Array) -> Array:
-        """Return the strain of the sheet's middle at some places, (m,)."""
+        """Return the strain of the sheet's middle at given places, (m,)."""
         pressed = sum(
             values_at(mesh, x) @ p for mesh, p in zip(self.meshes, state.pressure, strict=True)
         )
@@ -272,7 +286,7 @@ class PlateProblem:
         return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
 
     def creep_by_sheet(self, state: PlateState, side: int, flat: Displacements) -> Array:
-        """Return what the strain of the sheet's face adds to the creep of one interface, (n,) [mm].
+        """Return the part of one interface's creep due to the sheet's strain, (n,) [mm].
 
         ``flat``: the linear displacements of its roller at nodes[1:].
         """
@@ -288,9 +302,9 @@ class PlateProblem:
         tension = sheet.tension_in * mesh.dx
         pressed = np.zeros(mesh.dx.size)
         x = mesh.nodes[1:]
-        for number, one in enumerate(self.spreads):
-            pulled = self.pulls[number].of(state.shear[number]).moments_beyond(x)
-            tension += SIGNS[number] * np.diff(about(x, pulled, 1)[:, 0])
-            pressed -= np.diff(one.of(state.pressure[number]).moments_beyond(x)[0, :, 0])
+        for number, one in enumerate(self.loads):
+            pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
+            tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
+            pressed -= np.diff(one.of(state.pressure[number]).tail_moments_at(x)[0, :, 0])
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

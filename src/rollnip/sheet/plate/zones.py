@@ -1,4 +1,4 @@
-"""Zones of stick and slip on both interfaces of a plate, each between edges of its own."""
+"""Zones of stick and slip on both interfaces of a plate, each between its own edges."""
 
 from __future__ import annotations
 
@@ -9,38 +9,43 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import LONGEST_MOVE, SideZones, held, without_slivers_in
+from rollnip.sheet.zones import (
+    LONGEST_MOVE,
+    OF_TRANSITIONS,
+    SideZones,
+    within_zone_middles,
+    without_slivers_in,
+)
 
 Array = NDArray[np.float64]
 
-_SLIVER = 1e-4  # over the width: zones that are left out
-_OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
+_SLIVER = 1e-4  # over the width: shorter zones are removed
 
 
 @dataclass(frozen=True, slots=True)
 class PlateZones(SideZones):
-    """The zones of the upper and of the lower interface, each between edges of its own."""
+    """The zones of the upper and of the lower interface of a plate, each between its own edges."""
 
     @property
     def edges(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return trailing and leading edge of either contact [mm]."""
+        """Return trailing and leading edge of each contact [mm]."""
         return self.upper.edges, self.lower.edges
 
     @property
     def is_proper(self) -> bool:
-        """Return whether all breaks are finite and every zone has a length."""
+        """Return whether all zone ends are finite and every zone has a positive length."""
         return self.upper.is_proper and self.lower.is_proper
 
     def breaks_of_mesh(self, number: int, thickness: float, *, peaks: bool = False) -> Array:
-        """Return the places where nodes of one interface crowd: its breaks, and some opposite.
+        """Return where the nodes of one interface crowd: its zone ends and some opposite places.
 
-        Opposite an edge of the other contact, and opposite a place where its slip turns to stick,
-        where the couple of its shear rises steeply, the pressure turns over about the thickness of
-        the sheet, which the nodes of a wide contact do not resolve by themselves. A place nearer
-        than that to another one has the nodes of that one, but for both edges of a contact that is
-        narrower than that: through the sheet the shear beside either edge is felt as it is. Where
-        the pressure ends in peaks about as long as the sheet is thick, nodes crowd at either side
-        of them.
+        Opposite an edge of the other contact, and opposite a transition from slip to stick on it,
+        where the couple of its shear rises steeply, the pressure varies over about the thickness of
+        the sheet. The nodes of a wide contact do not resolve that by themselves. A place that is
+        closer than the thickness to another one shares the nodes of that one. An exception are the
+        two edges of a contact that is narrower than that: through the sheet the shear beside each
+        edge is felt separately. Where the pressure ends in peaks about as long as the sheet is
+        thick, nodes crowd at both ends of each peak.
 
         Parameters
         ----------
@@ -50,7 +55,7 @@ class PlateZones(SideZones):
         """
         own, opposite = self.sides[number], self.sides[1 - number]
         first, last = own.edges
-        # of the transitions only those where stick begins: there the shear is a root
+        # only transitions where stick begins: there the shear behaves as a square root
         begins = np.append(opposite.states == State.STICK, True)
         begins[0] = True
         breaks = own.breaks
@@ -66,19 +71,20 @@ class PlateZones(SideZones):
         return np.sort(breaks)
 
     def distance(self, other: PlateZones) -> float:
-        """Return how far apart the breaks of like zones are, over their widths.
+        """Return the largest distance between the ends of like zones, over their widths.
 
-        Those of transitions count squared, for figures depend on them to second order.
+        The distance of transitions counts squared, because figures depend on them only to second
+        order.
         """
         parts = []
         for one, two in zip(self.sides, other.sides, strict=True):
             share = np.abs(one.breaks - two.breaks) / two.width
-            share[1:-1] *= _OF_TRANSITIONS * share[1:-1]
+            share[1:-1] *= OF_TRANSITIONS * share[1:-1]
             parts.append(float(share.max()))
         return max(parts)
 
     def edges_off(self, other: PlateZones) -> float:
-        """Return how far apart the edges of both are, over the widths of these."""
+        """Return the largest distance between the edges of both, over the widths of these zones."""
         parts = zip(self.sides, self.edges, other.edges, strict=True)
         return max(float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
 
@@ -87,29 +93,29 @@ class PlateZones(SideZones):
         return self.upper.states_on(x[0]), self.lower.states_on(x[1])
 
     def moved(
-        self, problem: PlateProblem, state: PlateState, called: PlateZones | None = None
+        self, problem: PlateProblem, state: PlateState, requested: PlateZones | None = None
     ) -> PlateZones:
-        """Return the zones with their breaks moved to where a solution with them puts them.
+        """Return zones whose ends are moved to where a solution with these zones puts them.
 
-        A transition moves at most half way to its neighbours, an edge by a 25th of the width; it
-        stays where nothing says where it belongs.
+        A transition moves at most half of the way to its neighbours, an edge at most a 25th of the
+        width. An end stays where nothing shows its place.
 
         Parameters
         ----------
-        problem, state : a solution with nodes at the breaks.
-        called : like zones, of the states that meet all conditions on these meshes. They say where
-            a transition belongs that the nearest shears do not place: all beyond their bounds.
+        problem, state : a solution with nodes at the zone ends.
+        requested : like zones, with states that meet all conditions on these meshes. They place a
+            transition where the nearest shears do not, because all of them exceed their bounds.
         """
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
             proposed = side.with_proposed_ends(x, state.side(number), friction).breaks
-            if called is not None:
-                proposed = np.where(np.isfinite(proposed), proposed, called.sides[number].breaks)
+            if requested is not None:
+                proposed = np.where(np.isfinite(proposed), proposed, requested.sides[number].breaks)
             trailing, leading = side.edges
             most = LONGEST_MOVE * side.width
             first, last = float(proposed[0]), float(proposed[-1])
-            # an edge without pressure that rises from it lies in tension: it goes where that ends
+            # an edge beside which no pressure rises lies in tension: move it to where that ends
             pressed = x[state.pressure[number] > 0.0]
             if pressed.size:
                 first = first if np.isfinite(first) else float(pressed[0])
@@ -120,7 +126,7 @@ class PlateZones(SideZones):
                 float(np.clip(first, trailing - most, trailing + most)),
                 float(np.clip(last, leading - most, leading + most)),
             )
-            sides.append(Layout(held(side.breaks, proposed, edges), side.states))
+            sides.append(Layout(within_zone_middles(side.breaks, proposed, edges), side.states))
         return PlateZones(sides[0], sides[1])
 
     def without_slivers(self) -> PlateZones:
@@ -129,22 +135,23 @@ class PlateZones(SideZones):
         return PlateZones(upper, lower)
 
     def reopened(self, misplaced: float) -> PlateZones:
-        """Return the zones, those of stick between opposite slip as long as ends may be misplaced.
+        """Return zones in which short stick zones between opposite slip are lengthened.
 
-        The tractions of a zone see no further than it is long: one that closed up while other ends
-        were misplaced could not grow again, as its ends would seem to be placed.
-        ``misplaced``: allowed error of an end, over the width.
+        Their least length is twice the error that zone ends may have. The tractions of a zone are
+        only sensitive over the length of the zone: if it closed while other ends were misplaced it
+        could not grow again, because its ends would seem to be in place. ``misplaced``: allowed
+        error of an end, over the width.
         """
         upper, lower = (_reopened(side, 2.0 * misplaced * side.width) for side in self.sides)
         return PlateZones(upper, lower)
 
     @classmethod
     def around(cls, problem: PlateProblem, state: PlateState) -> PlateZones:
-        """Return the zones of nodal states on meshes that reach beyond the contacts.
+        """Return the zones of nodal states on meshes that extend beyond the contacts.
 
-        Nodes without pressure between others, where it is low or few nodes show how it dips, count
-        as their neighbours. One zone of stick on an interface whose zones are in pieces all the
-        same.
+        Nodes without pressure between others, where the pressure is low or few nodes resolve a dip,
+        get the state of their neighbours. An interface whose zones are still disconnected gets one
+        stick zone.
         """
         sides = []
         for number, (mesh, friction) in enumerate(
@@ -158,7 +165,7 @@ class PlateZones(SideZones):
         return cls(sides[0], sides[1])
 
     def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:
-        """Return the zones of nodal states between the edges of these; None if unclear."""
+        """Return the zones of nodal states between these edges; None where they are unclear."""
         sides = [
             Layout.from_nodes(mesh.inner, state.side(number), friction, side.edges)
             for number, (mesh, friction, side) in enumerate(
@@ -173,7 +180,7 @@ class PlateZones(SideZones):
 
 
 def _joined(state: ContactState) -> ContactState:
-    """Return one interface with its contact in one piece: free nodes within are as those before."""
+    """Return one interface with a connected contact: inner free nodes get the state before them."""
     states = state.states.copy()
     touching = np.flatnonzero(states != State.FREE)
     if touching.size:
@@ -184,9 +191,9 @@ def _joined(state: ContactState) -> ContactState:
 
 
 def _reopened(layout: Layout, least: float) -> Layout:
-    """Return a layout whose zones between unlike ones are no shorter than ``least`` [mm].
+    """Return a layout whose zones between unlike ones are at least ``least`` long [mm].
 
-    They take no more than half of their neighbours.
+    They take at most half of their neighbours.
     """
     breaks, states = layout.breaks.copy(), layout.states
     for number in range(1, states.size - 1):

@@ -1,0 +1,139 @@
+"""The formulation of a sheet without bending stiffness: a membrane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.model import Geometry, Model
+from rollnip.nip import Creepage, Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.mesh_solution import peak_pressure
+from rollnip.sheet.figures import SheetFigures
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.membrane.lagged_terms import (
+    change_of_terms,
+    lagged_terms,
+    path_slope_changes,
+    pulls_of,
+    residual_with_terms,
+)
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
+from rollnip.sheet.membrane.search import MembraneIterate, MembraneSearch, overlap
+from rollnip.sheet.membrane.system import MembraneMesh
+from rollnip.sheet.powers import Pulls, sheet_powers
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class MembraneFormulation:
+    """A nip with a membrane: both interfaces share one contact and one pressure."""
+
+    nip: Nip
+
+    def search(self, model: Model, kernels: PairKernels) -> MembraneSearch:
+        """Return the search for its zones."""
+        return MembraneSearch(self.nip, model, kernels)
+
+    @property
+    def bending_length(self) -> float:
+        """Length over which bending stiffness acts: infinite, for there is none."""
+        return inf
+
+    def peak_tolerances(self, model: Model) -> tuple[float]:
+        """Return the allowed relative error of the peak pressure."""
+        return (model.tolerance,)
+
+    def figures(self, iterate: MembraneIterate, geometry: Geometry) -> tuple[SheetFigures]:
+        """Return the figures of a solution."""
+        problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
+        peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+        tension, strain = problem.tension_at(state), strain_at(iterate)
+        widest = 1.0 if strain.max() > -strain.min() else -1.0
+        into_sheet = _into_sheet(iterate, geometry)
+        return (
+            SheetFigures.of(
+                iterate,
+                sheet_powers(iterate, geometry, self.pulls(iterate, geometry), into_sheet),
+                peak,
+                (_largest_of(mesh, tension), -_largest_of(mesh, -tension)),
+                widest * _largest_of(mesh, widest * strain),
+            ),
+        )
+
+    def pulls(self, iterate: MembraneIterate, geometry: Geometry) -> Pulls:
+        """Return int q lambda ds of both rollers [N/mm]."""
+        problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
+        u = mesh.displacements(state)
+        whole = smooth = pulls_of(problem, geometry, state, mesh.uncut(u))
+        if mesh.held is not None:
+            smooth = pulls_of(problem, geometry, state, u)
+        return tuple(zip(whole, smooth, strict=True))
+
+    def overlap(self, iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
+        """Return the relative overlap outside the contact, or the relative tension in it."""
+        return overlap(iterate, kernels, geometry)
+
+    def with_corrections(self, iterate: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
+        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
+        problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(kernels))
+        lagged = lagged_terms(problem, "finite", iterate.state)
+        change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)
+        return replace(iterate, problem=problem, lagged=lagged, change=change)
+
+    def residual_with_terms_of(self, iterate: MembraneIterate, other: MembraneIterate) -> float:
+        """Return the residual of a solution with the lagged terms of ``other``."""
+        return residual_with_terms(other.lagged, iterate.lagged, iterate.problem, iterate.state)
+
+
+def strain_at(iterate: MembraneIterate) -> Array:
+    """Return the strain of the sheet at the nodes, (n,)."""
+    problem, state, sheet = iterate.problem, iterate.state, iterate.problem.sheet
+    tension = sheet.stretch_by_tension * problem.tension_at(state)
+    return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
+
+
+def _largest_of(mesh: MembraneMesh, values: Array) -> float:
+    """Return the maximum over x of values at ``mesh.inner``, also between nodes.
+
+    Near an edge strains, as tractions, vary as the square root of the distance. They are smooth
+    functions of the node number but not of x.
+    """
+    return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
+
+
+def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
+    """Return the power of the shears on the faces of the sheet, over V [N/mm].
+
+    The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
+    """
+    problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
+    above, below = problem.shear_forces(state, 0), problem.shear_forces(state, 1)
+    pushed, sheared = above - below, above + below
+    strain = (problem.strain_over(state) / mesh.dx)[:-1]
+    rate = sheet_rate(*state.creepages)
+    taken = rate * float(pushed.sum())
+    if geometry == "linear":
+        return taken + float(pushed @ strain)
+    turn = path_slope_changes(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
+    bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
+    return taken + rate * (float(pushed @ strain) - bent)
+
+
+def traction_slope(iterate: MembraneIterate) -> float:
+    """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
+
+    It turns an error of the creepage at a given traction into one of the traction at a given
+    creepage, as without a sheet.
+    """
+    tractions = []
+    for creepage in (0.0, 1.0):  # the tractions are linear in it
+        nip = replace(iterate.problem.nip, tangential=Creepage(creepage))
+        problem = replace(iterate.problem, nip=nip)
+        found = FactorisedMembrane.of(problem, iterate.state.both_states).solved(iterate.lagged)
+        tractions.append(float(problem.mesh.weights @ found.shear_lower))
+    return abs(tractions[1] - tractions[0])

@@ -1,0 +1,148 @@
+"""The formulation of a sheet with bending stiffness: a plate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.model import FINITE, Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
+from rollnip.sheet.bending import bending_length
+from rollnip.sheet.figures import NAMES, SheetFigures
+from rollnip.sheet.lagged_terms import sheet_rate
+from rollnip.sheet.plate.curved_path import direction_of
+from rollnip.sheet.plate.interface import SIGNS, interface_peak
+from rollnip.sheet.plate.iterate import PlateIterate, overlap
+from rollnip.sheet.plate.lagged_terms import (
+    change_of_terms,
+    lagged_terms,
+    pull_of,
+    residual_with_terms,
+)
+from rollnip.sheet.plate.search import PlateSearch
+from rollnip.sheet.plate.system import PlateProblem, PlateState
+from rollnip.sheet.powers import Pulls, sheet_powers
+
+Array = NDArray[np.float64]
+
+_ON_LOWER = [NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_pressure_x")]
+
+
+@dataclass(frozen=True, slots=True)
+class PlateFormulation:
+    """A nip with a plate: each interface has a contact of its own."""
+
+    nip: Nip
+
+    def search(self, model: Model, kernels: PairKernels) -> PlateSearch:
+        """Return the search for its zones."""
+        return PlateSearch(self.nip, model, kernels)
+
+    @property
+    def bending_length(self) -> float:
+        """Length over which bending stiffness acts [mm]."""
+        return bending_length(self.nip)
+
+    def peak_tolerances(self, model: Model) -> tuple[float, float]:
+        """Return the allowed relative error of the peak pressure on each side.
+
+        On a bare roller finite strain leaves the peak more uncertain than the tolerance.
+        """
+        left = SHARE_OF_EDGE_PEAK["finite"] if model.geometry in FINITE else 0.0
+        rigid = max(model.tolerance, left)
+        upper, lower = (
+            rigid if one.is_rigid else model.tolerance for one in (self.nip.upper, self.nip.lower)
+        )
+        return upper, lower
+
+    def figures(
+        self, iterate: PlateIterate, geometry: Geometry
+    ) -> tuple[SheetFigures, SheetFigures]:
+        """Return figures with width and pressure of the upper interface, and of the lower one."""
+        problem, state = iterate.problem, iterate.state
+        x = _turning_places(problem, state)
+        tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
+        pulls = self.pulls(iterate, geometry)
+        upper = SheetFigures.of(
+            iterate,
+            sheet_powers(iterate, geometry, pulls, _into_sheet(iterate)),
+            interface_peak(problem.meshes[0], state.pressure[0]),
+            (float(tension.max()), float(tension.min())),
+            float(strain[np.argmax(np.abs(strain))]),
+        )
+        lower = upper.values.copy()
+        lower[_ON_LOWER] = (
+            iterate.zones.lower.width,
+            *interface_peak(problem.meshes[1], state.pressure[1]),
+        )
+        return upper, SheetFigures(lower)
+
+    def pulls(self, iterate: PlateIterate, geometry: Geometry) -> Pulls:
+        """Return int q lambda ds of both rollers [N/mm]."""
+        problem, state, out = iterate.problem, iterate.state, []
+        for side, mesh in enumerate(problem.meshes):
+            u = problem.displacements(state, side)
+            whole = smooth = pull_of(problem, geometry, state, side, mesh.uncut(u))
+            if mesh.kernels.held is not None:
+                smooth = pull_of(problem, geometry, state, side, u)
+            out.append((whole, smooth))
+        return out
+
+    def overlap(self, iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+        """Return the relative overlap outside the contacts, or the relative tension in them."""
+        return overlap(iterate, kernels, geometry)
+
+    def with_corrections(self, iterate: PlateIterate, kernels: PairKernels) -> PlateIterate:
+        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
+        meshes = list(iterate.problem.meshes)
+        for side, roller in enumerate((self.nip.upper, self.nip.lower)):
+            if not roller.is_rigid and kernels.held is not None:
+                held = kernels.held.of_side(side)
+                meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
+        problem = replace(iterate.problem, meshes=(meshes[0], meshes[1]))
+        lagged = lagged_terms(problem, "finite", iterate.state, iterate.lagged)
+        change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)
+        return replace(iterate, problem=problem, lagged=lagged, change=change)
+
+    def residual_with_terms_of(self, iterate: PlateIterate, other: PlateIterate) -> float:
+        """Return the residual of a solution with the lagged terms of ``other``."""
+        return residual_with_terms(other.lagged, iterate.lagged, iterate.problem, iterate.state)
+
+
+def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
+    """Return the fine nodes of both meshes and the extrema of the tension between them, (m,) [mm].
+
+    Between these nodes the slope of the tension, q_u - q_l, is linear.
+    """
+    x = np.unique(np.concatenate([one.nodes for one in problem.path_shears]))
+    upper, lower = (
+        np.interp(x, one.nodes, one.of(shear).lines[:, 0])
+        for one, shear in zip(problem.path_shears, state.shear, strict=True)
+    )
+    slope = upper - lower
+    turns = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
+    share = slope[turns] / (slope[turns] - slope[turns + 1])
+    return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
+
+
+def _into_sheet(iterate: PlateIterate) -> float:
+    """Return the power of the shears on the faces of the sheet, over V [N/mm].
+
+    The faces run at V_s (1 + e -+ h y''/2). "linear" keeps the products with the strains, which are
+    of second order.
+    """
+    problem, state = iterate.problem, iterate.state
+    rate, taken = sheet_rate(*state.creepages), 0.0
+    curved = iterate.lagged.curved
+    rotations = problem.rotations(state, curved)
+    for side, mesh in enumerate(problem.meshes):
+        pushed, sign = problem.shear_forces(state, side), SIGNS[side]
+        strained = problem.strain_over(state, side)[:-1]
+        turned = np.diff(direction_of(rotations[side][:-1], curved))
+        face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
+        taken += sign * float(pushed @ (1.0 + face))
+    return rate * taken

@@ -1,0 +1,132 @@
+"""Initial zones of a plate: contact, stick and slip at all nodes, on meshes around the contacts.
+
+The first mesh extends far beyond the contacts. Each further one ends closer to the edges that the
+previous one found, and its nodes crowd there. The last ends about one sheet thickness away, because
+on a rigid roller the pressure ends in a peak as short as that: an edge whose error exceeds the
+length of the peak would move the wrong way in the search that follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
+from rollnip.nip import Nip, Torque
+from rollnip.rolling import PairKernels
+from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.sheet.plate.complementarity import Edges, solve_complementarity
+from rollnip.sheet.plate.interface import interface_mesh
+from rollnip.sheet.plate.lagged_terms import initial_terms, lagged_terms
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
+from rollnip.sheet.plate.zones import PlateZones
+
+_ELEMENTS = 30  # least number for a mesh that extends beyond the contacts
+_MOST_ELEMENTS = 100
+_REACH = 1.6  # half-length of the first mesh over the half-width of a membrane
+_WIDER = 1.5  # growth of the first mesh where the contact does not fit into it
+_MOST_REACHES = 4
+_MARGIN = 0.15  # over the width, beyond edges that are approximately known
+_NEARER = 0.25  # reduction of the margin where the mesh contained the edges
+_INSIDE = 0.9  # of the margin: an edge that moved less counts as inside the mesh
+_BESIDE = 8  # elements beyond each approximately known edge
+
+
+@dataclass(frozen=True, slots=True)
+class InitialZones:
+    """The search for initial zones, for one nip."""
+
+    nip: Nip
+    kernels: PairKernels
+
+    def around(self, half_width: float, count: int) -> PlateZones:
+        """Return zones of a contact of which only an approximate half-width is known.
+
+        ``half_width``: about that of a membrane [mm]; ``count``: elements of the mesh for which the
+        zones are meant.
+        """
+        reach = _REACH * half_width
+        for _ in range(_MOST_REACHES):
+            problem = self._problem(PlateZones.sticking(reach), 0.0, _ELEMENTS)
+            around = (-half_width, half_width)
+            state = self._solve_complementarity(problem, initial_terms(problem), (around, around))
+            if all(one[0] == one[-1] == State.FREE for one in state.states):
+                break
+            reach *= _WIDER
+        return self.closer(PlateZones.around(problem, state), None, count)
+
+    def closer(self, zones: PlateZones, lagged: PlateTerms | None, count: int) -> PlateZones:
+        """Return more accurate zones from approximate ones, on meshes that crowd at their edges.
+
+        Each mesh ends closer to the edges that the previous one found; where edges moved to the end
+        of a mesh, the next one keeps the same margin. Where a mesh has no solution, the last zones
+        are returned. ``lagged``: terms of a solution with approximately these zones, whose traction
+        and shear-borne load are used; None: none is known.
+        """
+        assert self.nip.sheet is not None
+        elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
+        for _ in range(_MOST_REACHES):
+            try:
+                found = self._beyond(zones, lagged, elements, margin)
+            except np.linalg.LinAlgError:
+                break
+            are_inside, zones = found.edges_off(zones) < _INSIDE * margin, found
+            if are_inside:
+                margin *= _NEARER
+                if margin * zones.width < self.nip.sheet.thickness:
+                    break
+        return zones
+
+    def _beyond(
+        self, zones: PlateZones, lagged: PlateTerms | None, elements: int, margin: float
+    ) -> PlateZones:
+        """Return the zones on meshes that end ``margin`` times the width beyond the edges."""
+        problem = self._problem(zones, margin, elements)
+        first = initial_terms(problem)
+        if lagged is not None:
+            first = replace(first, traction=lagged.traction, lean=lagged.lean)
+        return PlateZones.around(problem, self._solve_complementarity(problem, first, zones.edges))
+
+    def _solve_complementarity(
+        self, problem: PlateProblem, lagged: PlateTerms, edges: Edges
+    ) -> PlateState:
+        """Return a solution with contact, stick and slip; a prescribed torque takes two solves."""
+        state, _ = solve_complementarity(problem, lagged, edges)
+        if isinstance(self.nip.tangential, Torque):
+            wanted = lagged_terms(problem, "linear", state).traction
+            state, _ = solve_complementarity(problem, replace(lagged, traction=wanted), edges)
+        return state
+
+    def _problem(self, zones: PlateZones, margin: float, count: int) -> PlateProblem:
+        """Assemble the problem on meshes that end ``margin`` times the width beyond the edges.
+
+        Where the edges are approximately known, nodes crowd there.
+        """
+        kernels = self.kernels
+        if not kernels.is_fixed:
+            kernels = replace(kernels, held=NO_SECOND_ORDER)
+        meshes = []
+        for number in (0, 1):
+            breaks, elements = _breaks(zones, number, margin, count)
+            even = (1.0,) * elements.size
+            nodes = cosine_nodes(breaks, elements, even)
+            fine = subdivided(nodes, elements, even)
+            meshes.append(interface_mesh(nodes, fine, kernels, number))
+        return PlateProblem.on(self.nip, (meshes[0], meshes[1]))
+
+
+def _breaks(
+    zones: PlateZones, number: int, margin: float, count: int
+) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Return the places where nodes of one interface crowd, and the elements in between."""
+    side, (trailing, leading) = zones.sides[number], zones.sides[number].edges
+    beyond = margin * side.width
+    if not margin > 0.0:
+        return np.array([trailing - beyond, leading + beyond]), np.array([count])
+    opposite = zones.sides[1 - number].edges
+    within = [x for x in opposite if trailing + beyond < x < leading - beyond]
+    inside = np.array(sorted([trailing, *within, leading]))
+    elements = np.array([_BESIDE, *elements_of_zones(inside, count), _BESIDE])
+    return np.array([trailing - beyond, *inside, leading + beyond]), elements

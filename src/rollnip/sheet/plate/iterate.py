@@ -1,0 +1,130 @@
+"""The iterate of the search for a plate: checks of its edges and peaks, gaps, and overlap."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._largest import largest
+from rollnip.contact import State
+from rollnip.influence import displacement_under
+from rollnip.model import Geometry
+from rollnip.rolling import Displacements, PairKernels, surface_depths
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.conditions import OUTSIDE, violation_outside
+from rollnip.sheet.iterate import SheetIterate
+from rollnip.sheet.lagged_terms import interpolated
+from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
+from rollnip.sheet.plate.interface import SIGNS
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
+from rollnip.sheet.plate.zones import PlateZones
+
+Array = NDArray[np.float64]
+
+
+PlateIterate = SheetIterate[PlateZones, PlateProblem, PlateState, PlateTerms]
+
+
+def shear_over(iterate: PlateIterate) -> float:
+    """Return the largest excess of a sticking node's shear over its bound, over the largest bound.
+
+    Infinite where one side has no pressure.
+    """
+    state, most = iterate.state, 0.0
+    for side, friction in enumerate(iterate.problem.frictions):
+        bound = friction * np.maximum(state.pressure[side], 0.0)
+        if not np.any(state.pressure[side] > 0.0):
+            return inf
+        over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
+        most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
+    return most
+
+
+def pulls_at_edges(iterate: PlateIterate) -> bool:
+    """Return whether the pressure beside any edge is tensile; see `Mesh.has_tension_at_edge`."""
+    sides = zip(iterate.problem.meshes, iterate.state.pressure, strict=True)
+    return any(mesh.has_tension_at_edge(pressure) for mesh, pressure in sides)
+
+
+def added_to_peaks(iterate: PlateIterate, proposed: PlateZones) -> float:
+    """Return the relative amount by which misplaced edges raise the peak pressures beside them.
+
+    An edge that lies too far inwards by delta gives p ~ sqrt(y) + delta/(2 sqrt(y)) at the distance
+    y from it, which on short elements exceeds all other pressures.
+
+    ``proposed``: zones with their edges where they should be.
+    """
+    most = 0.0
+    for side, mesh in enumerate(iterate.problem.meshes):
+        x, top = mesh.inner, int(np.argmax(iterate.state.pressure[side]))
+        for node, edge, place in zip((1, x.size - 2), (0, -1), proposed.edges[side], strict=True):
+            if top == node:
+                off, away = abs(place - x[edge]), abs(x[node] - x[edge])
+                most = max(most, float(off / (2.0 * away + off)))
+    return most
+
+
+def overlap(iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+    """Return the relative overlap outside the contacts, or the relative tension in them."""
+    problem, state, width = iterate.problem, iterate.state, iterate.zones.width
+    parts = []
+    for side, mesh in enumerate(problem.meshes):
+        away = iterate.zones.sides[side].width * OUTSIDE
+        x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
+        gap, pressure = gap_at(iterate, (kernels, geometry), side, x), state.pressure[side]
+        parts.append(violation_outside(problem.nip, gap, pressure, width, state.approach))
+    return largest(*parts)
+
+
+def gap_at(
+    iterate: PlateIterate,
+    model: tuple[PairKernels, Geometry],
+    side: int,
+    x: Array,
+) -> Array:
+    """Return the gap between one roller and the sheet at given places, (m,) [mm]."""
+    problem, state, curved = iterate.problem, iterate.state, iterate.lagged.curved
+    u = _displacements_at(problem.meshes[side], state, model[0], side, x)
+    gap = (
+        surface_depths(x, problem.nip, model[1], u)[side]
+        + problem.face_indentations_at(state, x)[side]
+    )
+    gap -= SIGNS[side] * problem.height_at(state, x, curved)
+    if curved is not None:
+        gap -= 0.25 * problem.sheet.thickness * problem.rotation_at(state, x, curved) ** 2
+    return np.asarray(gap - (state.approach if side == 0 else 0.0))
+
+
+def _displacements_at(
+    mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x: Array
+) -> Displacements:
+    """Return the displacements of one roller at given places; those of the other one are zero."""
+    four, surface = np.zeros((4, x.size)), (kernels.upper, kernels.lower)[side]
+    if surface is None:
+        return Displacements(four)
+    tractions = state.pressure[side], SIGNS[side] * state.shear[side]
+    acting = np.stack([mesh.acting(t) for t in tractions], axis=1)
+    xx, zz, xz = displacement_under(surface.together, x, mesh.fine.nodes, acting)
+    four[2 * side] = xz[:, 0] + xx[:, 1]
+    four[2 * side + 1] = zz[:, 0] - xz[:, 1]
+    flat = Displacements(four)
+    return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
+
+
+def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:
+    """Return the lagged terms of a solution, interpolated to other meshes."""
+    lagged = iterate.lagged
+    upper, lower = (
+        interpolated(old, new, lagged.clearance[side], lagged.offsets[side])
+        for side, (old, new) in enumerate(zip(iterate.problem.meshes, problem.meshes, strict=True))
+    )
+    curved = lagged.curved
+    return replace(
+        lagged,
+        clearance=(upper[0], lower[0]),
+        offsets=(upper[1], lower[1]),
+        curved=curved and CurvedLoad.of(curved.couple, curved.force, places_along(problem)),
+    )

@@ -1,0 +1,272 @@
+"""Piecewise-linear tractions on one interface, and the sheet's response to them at other places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import factorial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.layer_response import displacements
+from rollnip.sheet.local_deformation import pressed_response, sheared_response
+from rollnip.sheet.local_stretch import LONG_WAVES, stretch_integral_response
+from rollnip.sheet.plate.bending import Plate, exponential_weights
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+
+_POINTS = np.polynomial.legendre.leggauss(5)
+# Gauss points of an interval of length 1, and their weights for the linear functions that are 1 at
+# either end: exact for the moments of linear tractions.
+_PLACES, _SHARES = 0.5 + 0.5 * _POINTS[0], 0.5 * _POINTS[1]
+_OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
+_ONE_FACE = (0.25, 0.25)  # pressures on one face: half of them equal on both, half opposite
+_MOMENTS = 4  # that a sheet without tension needs
+_FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the sheet within the mesh
+_TERMS = 5  # of the series in 1/L for such tensions; the terms left out are below 1e-10
+
+
+@dataclass(frozen=True, slots=True)
+class PiecewiseLoads:
+    """Piecewise-linear tractions in one or more sets, whose effect on the sheet can be evaluated.
+
+    Attributes
+    ----------
+    sheet, plate : on which they act.
+    nodes : (M + 1,) between which they are linear [mm].
+    lines : (M + 1, n) nodal values of n sets.
+    tail_moments : (moments, M + 1, n) int_x^inf s^k/k! t ds from each node on [mm^(k + 1)].
+    """
+
+    sheet: Sheet
+    plate: Plate
+    nodes: Array
+    lines: Array
+    tail_moments: Array
+
+    @classmethod
+    def on(
+        cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None
+    ) -> PiecewiseLoads:
+        """Return the unit tractions of all nodes of a mesh.
+
+        ``along``: factors at its fine nodes, such as ds/dx; None: all 1.
+        """
+        nodes, acting = mesh.fine.nodes, mesh.fine.acting
+        assert acting is not None
+        lines = np.zeros((nodes.size, mesh.inner.size))
+        lines[1:-1] = acting[1:-1, 1:-1]
+        lines = lines if along is None else lines * along[:, None]
+        return cls.of_lines(nodes, lines, sheet, plate)
+
+    @classmethod
+    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> PiecewiseLoads:
+        """Return tractions given by nodal values, (M + 1, n)."""
+        is_feeble = plate.tension > 0.0 and plate.length > _FEEBLE * float(np.ptp(nodes))
+        count = _MOMENTS + _TERMS - 1 if is_feeble else _MOMENTS
+        first, last = _moments(nodes[:-1], np.diff(nodes), count)[..., None]
+        tail_moments = np.zeros((count, *lines.shape))
+        for moment, one, other in zip(tail_moments, first, last, strict=True):  # fits the cache
+            pieces = one * lines[:-1] + other * lines[1:]
+            np.cumsum(pieces[::-1], axis=0, out=moment[-2::-1])
+        return cls(sheet, plate, nodes, lines, tail_moments)
+
+    def of(self, values: Array) -> PiecewiseLoads:
+        """Return tractions for nodal values of the mesh, one set (n,) or s sets (n, s)."""
+        sets = values.reshape(values.shape[0], -1)
+        return replace(self, lines=self.lines @ sets, tail_moments=self.tail_moments @ sets)
+
+    @property
+    def total(self) -> Array:
+        """Return int t dx of each set, (n,) [mm]."""
+        return np.asarray(self.tail_moments[0, 0])
+
+    @property
+    def moment(self) -> Array:
+        """Return int x t dx of each set, (n,) [mm^2]."""
+        return np.asarray(self.tail_moments[1, 0])
+
+    def tail_moments_at(self, x: Array) -> Array:
+        """Return the integrals ``tail_moments`` from given places on, (moments, m, n); exact."""
+        inside = np.clip(x, self.nodes[0], self.nodes[-1])
+        at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
+        length = self.nodes[at + 1] - inside
+        share = length / (self.nodes[at + 1] - self.nodes[at])
+        first, last = _moments(inside, length, self.tail_moments.shape[0])[..., None]
+        share = share[:, None]
+        here, there = self.lines[at], self.lines[at + 1]
+        out = self.tail_moments[:, at + 1]
+        for moment, one, other in zip(out, first, last, strict=True):
+            moment += share * one * here
+            moment += ((1.0 - share) * one + other) * there
+        return np.asarray(out)
+
+    def deflection(self, x: Array, tail_moments: Array) -> tuple[Array, Array, Array]:
+        """Return the bending of the plate at given places, with the tractions as loads.
+
+        Parameters
+        ----------
+        x : (m,) places [mm].
+        tail_moments : `tail_moments_at` of these places.
+
+        Returns
+        -------
+        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa], each
+        (m, n).
+        """
+        # odd powers of |x - s|: twice the part ahead, less the signed total
+        whole = self.tail_moments[:, :1]
+        ahead = 2.0 * tail_moments - whole
+        distances = moments_about(x, ahead, 1)
+        sheared = -0.5 * self.plate.shear * distances
+        length, yielding = self.plate.length, 0.5 / self.plate.stiffness
+        if length > _FEEBLE * float(np.ptp(self.nodes)):
+            height, slope, bend = self._deflection_by_series(x, ahead)
+            return height + sheared, slope, bend
+        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact
+        before, after = self._decayed(x)
+        yielding *= length
+        near = whole[0] - before - after
+        height = moments_about(x, whole, 2) - length * distances + length**2 * near
+        slope = -moments_about(x, whole, 1) + length * (ahead[0] + before - after)
+        return yielding * height + sheared, yielding * slope, yielding * near
+
+    def _deflection_by_series(self, x: Array, ahead: Array) -> tuple[Array, ...]:
+        """Return height, rotation and curvature where tension straightens little or nothing.
+
+        K is the sum of (-1)^(k + 1) L^3/(2 D) (|x|/L)^k/k! from k = 3 on; without tension only its
+        first term is left. Even powers are polynomials. So are odd ones on either side of x, with
+        opposite signs: they take ``ahead``, the moments ahead of x less those behind.
+        """
+        count = self.tail_moments.shape[0]
+        powers = np.arange(3, 4 + count - _MOMENTS)
+        factors = 0.5 / self.plate.stiffness * (-1.0 / self.plate.length) ** (powers - 3)
+        out = []
+        for order in range(3):
+            signed = (-1.0) ** order * factors
+            odd, even = (
+                _moment_weights(x, powers[first::2] - order, signed[first::2], count)
+                for first in (0, 1)
+            )
+            made = np.einsum("km,kmn->mn", odd, ahead)
+            if powers.size > 1:
+                made += even.T @ self.tail_moments[:, 0]
+            out.append(made)
+        return tuple(out)
+
+    def _decayed(self, x: Array) -> tuple[Array, Array]:
+        """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
+        nodes, lines, length = self.nodes, self.lines, self.plate.length
+        inside = np.clip(x, nodes[0], nodes[-1])
+        at = np.clip(np.searchsorted(nodes, inside, side="right") - 1, 0, nodes.size - 2)
+        left, right = inside - nodes[at], nodes[at + 1] - inside
+        lengths = np.concatenate([np.diff(nodes), left, right])
+        ends = nodes.size - 1, nodes.size - 1 + x.size
+        near, far = (np.split(one[:, None], ends) for one in exponential_weights(lengths, length))
+        decays = np.split(np.exp(-lengths / length)[:, None], ends)
+        pieces = np.zeros((2, *lines.shape))
+        pieces[0, 1:] = far[0] * lines[:-1] + near[0] * lines[1:]
+        pieces[1, :-1] = near[0] * lines[:-1] + far[0] * lines[1:]
+        along = decays[0][:, 0].tolist()
+        behind = _decaying_sums(pieces[0], along)
+        ahead = _decaying_sums(pieces[1, ::-1], along[::-1])[::-1]
+        share = (left / (left + right))[:, None]
+        here = (1.0 - share) * lines[at] + share * lines[at + 1]
+        outside = np.exp(-np.abs(x - inside) / length)[:, None]
+        out = []
+        for way, end, total in ((1, at, behind), (2, at + 1, ahead)):
+            passed = decays[way] * total[end] + near[way] * here + far[way] * lines[end]
+            out.append(outside * passed)
+        return out[0], out[1]
+
+    def face_indentation(self, x: Array, far: NDArray[np.bool_]) -> Array:
+        """Return the displacement of a face towards the middle under pressures, (m, n) [mm/MPa].
+
+        ``far``: where it is the face opposite to that under the pressures, otherwise that face
+        itself.
+        """
+        response = pressed_response(_ONE_FACE)
+        (made,) = displacements((response,), self.sheet.thickness, x, self.nodes, self.lines, far)
+        return self.sheet.squeeze * made
+
+    def stretch_integral(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
+        """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.local_stretch`.
+
+        g t is the stretch of the face under pressures t, without bending; ``tail_moments``:
+        `tail_moments_at` of the places; ``far``: see `face_indentation`.
+        """
+        response, thickness = stretch_integral_response(), self.sheet.thickness
+        (short,) = displacements((response,), thickness, x, self.nodes, self.lines, far)
+        return self._with_long_waves(short, far, tail_moments)
+
+    def face_displacements(
+        self, x: Array, far: NDArray[np.bool_], tail_moments: Array
+    ) -> tuple[Array, Array, Array]:
+        """Return the displacements of a face by unit tractions, each (m, n).
+
+        Towards the middle by pressures, see `face_indentation` [mm/MPa]; tangential by shears,
+        without tension and bending, with the sign of the shear on the roller at that face [mm/MPa];
+        and tangential by pressures, see `stretch_integral` [mm].
+        """
+        responses = pressed_response(_ONE_FACE), sheared_response(), stretch_integral_response()
+        indented, shifted, short = displacements(
+            responses, self.sheet.thickness, x, self.nodes, self.lines, far
+        )
+        stretched = self._with_long_waves(short, far, tail_moments)
+        return self.sheet.squeeze * indented, self.sheet.sheared * shifted, stretched
+
+    def _with_long_waves(self, short: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
+        sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
+        signs = np.where(far, -1.0, 1.0)
+        less = sheet.sheared / sheet.thickness
+        long = alike - 0.5 * less * (LONG_WAVES[0] + signs * LONG_WAVES[1])
+        return np.asarray(long[:, None] * tail_moments[0] - sheet.sheared * short)
+
+
+def _decaying_sums(pieces: Array, decays: list[float]) -> Array:
+    """Return sums of rows, each of which has decayed from row to row, (m, n); changes ``pieces``.
+
+    ``decays``: (m - 1,) factors from one row to the next.
+    """
+    for before, row, decay in zip(pieces[:-1], pieces[1:], decays, strict=True):
+        row += decay * before
+    return pieces
+
+
+def moments_about(x: Array, moments: Array, order: int) -> Array:
+    """Return int (s - x)^k/k! t ds, (m, n), from the moments int s^j/j! t ds.
+
+    k is the ``order``; moments up to that order are used.
+    """
+    out, back = moments[order], -x[:, None]
+    power = np.ones(back.shape)
+    for k in range(order - 1, -1, -1):
+        power = power * back / (order - k)
+        out = out + power * moments[k]
+    return np.asarray(out)
+
+
+def _moment_weights(x: Array, powers: NDArray[np.intp], factors: Array, count: int) -> Array:
+    """Return the weights of int s^j/j! t ds, j < ``count``, in a sum of int (s - x)^k/k! t ds.
+
+    (count, m); ``powers``, ``factors``: k and its factor, of each term.
+    """
+    out = np.zeros((count, x.size))
+    for power, factor in zip(powers.tolist(), factors.tolist(), strict=True):
+        for j in range(power + 1):
+            out[j] += factor / factorial(power - j) * (-x) ** (power - j)
+    return out
+
+
+def _moments(starts: Array, lengths: Array, count: int) -> Array:
+    """Return int s^k/k! t ds, k < ``count``, over intervals per end value of a linear t.
+
+    (2, count, m).
+    """
+    s = starts + _PLACES[:, None] * lengths
+    powers = np.ones((count, *s.shape))
+    for k in range(1, count):
+        np.multiply(powers[k - 1], s / k, out=powers[k])
+    return np.asarray(np.tensordot(_OF_ENDS, powers, axes=(1, 1)) * lengths)

@@ -1,0 +1,188 @@
+"""Solve a nip with a plate and assemble the result."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from rollnip._errors import ConvergenceError
+from rollnip.influence import KernelCache
+from rollnip.model import SIMPLER, Model
+from rollnip.nip import Nip
+from rollnip.reservation import Reservation, consistent
+from rollnip.rolling import MeshSolution, PairKernels, half_width_guess, pair_kernels
+from rollnip.sheet.bending import COUNTED
+from rollnip.sheet.checks import (
+    compression_reservations,
+    curved_tension_reservations,
+    half_width_with_sheet,
+    require_grip,
+    sheet_verdict,
+    simpler_geometry_reservations,
+)
+from rollnip.sheet.one_geometry import solve_in_geometry
+from rollnip.sheet.plate.formulation import PlateFormulation
+from rollnip.sheet.plate.iterate import PlateIterate
+from rollnip.sheet.plate.solution import PlateSolution, lower_mesh_solution, plate_mesh_solution
+from rollnip.sheet.refine import Refined
+from rollnip.sheet.status import with_errors_in_status
+from rollnip.validity import StrainSizes, validity_reservations
+
+_HARDLY = 0.01  # residual of the conditions that moving zone ends alone may cause
+
+
+def solve_plate(
+    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[Reservation, ...]]
+) -> PlateSolution | None:
+    """Solve the steady rolling of two rollers with a sheet whose bending stiffness is included.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    model : geometry "linear", "curved" or one of finite strain.
+    cache : influence functions from earlier solves.
+    record : version of rollnip, and reservations on the model.
+
+    Returns
+    -------
+    None where the sheet does not ask for its stiffness to be included, and no solution with it can
+    be verified.
+
+    Raises
+    ------
+    InvalidInputError
+        where friction cannot carry what is prescribed.
+    ConvergenceError
+        where the stiffness is asked for and no solution was found at all.
+    """
+    start, (version, reservations) = perf_counter(), record
+    assert nip.sheet is not None
+    asked = nip.sheet.bending is True
+    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
+    reservations += on_geometry
+    if refined is None:
+        if asked:
+            raise ConvergenceError(
+                "No solution with this sheet's stiffness was found; try a larger load, other "
+                "tensions, or `bending = false`."
+            )
+        return None
+    if not asked and not refined.iterate.settled:
+        return None
+    require_grip(nip, refined)
+    found = _assembled(
+        nip, model, kernels, refined, (reservations, perf_counter() - start, version)
+    )
+    return found if asked or found.converged else None
+
+
+def membrane_limit(nip: Nip, model: Model, cache: KernelCache) -> float:
+    """Return the spreading length up to which a sheet is a membrane by default [mm]."""
+    half_width = half_width_guess(nip, pair_kernels(nip, model.geometry, cache))
+    return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
+
+
+def _is_settled(refined: Refined[PlateIterate] | None) -> bool:
+    return refined is not None and refined.iterate.settled
+
+
+def _solve_with_fallback(
+    nip: Nip, model: Model, cache: KernelCache
+) -> tuple[Model, PairKernels, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
+    """Return the solved model, influence functions, the solution, and reservations on the model.
+
+    Simpler geometries are tried until one has a converged solution. Where none has, the first
+    solution is returned; None where there is no solution at all.
+    """
+    tried: list[tuple[Model, PairKernels, Refined[PlateIterate] | None]] = []
+    now: Model | None = model
+    while now is not None:
+        tried.append((now, *solve_in_geometry(PlateFormulation(nip), now, cache)))
+        if _is_settled(tried[-1][2]):
+            break
+        simpler = SIMPLER.get(now.geometry)
+        now = None if simpler is None else replace(now, geometry=simpler)
+    settled = [one for one in tried if _is_settled(one[2])]
+    model, kernels, refined = (settled or [one for one in tried if one[2]] or tried)[0]
+    models = [one for one, _, _ in tried]
+    unsolved = [one.geometry for one in models[: models.index(model)]]
+    return model, kernels, refined, simpler_geometry_reservations(unsolved, model.geometry)
+
+
+def _assembled(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    refined: Refined[PlateIterate],
+    record: tuple[tuple[Reservation, ...], float, str],
+) -> PlateSolution:
+    reservations, seconds, version = record
+    final = plate_mesh_solution(refined)
+    both = final, lower_mesh_solution(refined, final)
+    converged, status = _verdict(nip, model, refined, both)
+    strains = _strains(nip, model, both)
+    reservations += compression_reservations(refined.figures) + curved_tension_reservations(
+        nip, model
+    )
+    reservations += validity_reservations(nip, model, final, strains)
+    plain: Any = refined
+    solution = PlateSolution(
+        nip=nip,
+        model=model,
+        converged=converged,
+        status=status,
+        reservations=consistent(reservations),
+        solver=refined.solver_info(seconds, version),
+        final=final,
+        kernels=kernels,
+        max_surface_strain=strains.surface,
+        refined=plain,
+    )
+    return with_errors_in_status(solution)
+
+
+def _verdict(
+    nip: Nip,
+    model: Model,
+    refined: Refined[PlateIterate],
+    rounds: tuple[MeshSolution, MeshSolution],
+) -> tuple[bool, str]:
+    """Return whether the solution is valid on both sides, and a sentence that says why."""
+    iterate = refined.iterate
+    if not iterate.settled and refined.residual <= _HARDLY:
+        return False, (
+            "Edges, or ends of stick and slip, on the sides of the sheet did not settle "
+            f"(they still moved by {100.0 * iterate.misplacement:.1g} % of the width); try another "
+            "tolerance, another load or other tensions, or `bending = false`."
+        )
+    if iterate.settled and not np.isfinite(refined.errors.values).all():
+        return False, (
+            "Contact, stick and slip settled on one size of mesh only, so no error can be "
+            "estimated; try another tolerance, another load or other tensions, or "
+            "`bending = false`."
+        )
+    upper, lower = (_as_allowed(nip, model, side, final) for side, final in enumerate(rounds))
+    converged, status = sheet_verdict(nip, model, refined, upper)
+    if converged:
+        below, reason = sheet_verdict(nip, model, refined, lower)
+        converged, status = (True, status) if below else (False, f"On the lower side: {reason}")
+    return converged, status
+
+
+def _as_allowed(nip: Nip, model: Model, side: int, final: MeshSolution) -> MeshSolution:
+    """Return one side for its verdict, without the error of a peak that is within its own limit."""
+    peak = final.error.peak_pressure
+    if peak > PlateFormulation(nip).peak_tolerances(model)[side] * final.figures.peak_pressure:
+        return final
+    return replace(final, error=replace(final.error, peak_pressure=0.0))
+
+
+def _strains(nip: Nip, model: Model, rounds: tuple[MeshSolution, MeshSolution]) -> StrainSizes:
+    """Return the larger strains of both interfaces."""
+    one, two = (StrainSizes.of(nip, model, final) for final in rounds)
+    return StrainSizes(
+        max(one.surface, two.surface), max(one.second, two.second), max(one.skin, two.skin)
+    )

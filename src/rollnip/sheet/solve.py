@@ -1,0 +1,219 @@
+"""Solve a nip with a sheet: choose plate or membrane, solve it, and assemble the result."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip.contact import ContactProblem, Control
+from rollnip.influence import KernelCache
+from rollnip.model import SIMPLER, Geometry, Model
+from rollnip.nip import Nip
+from rollnip.reservation import Reservation, consistent
+from rollnip.rolling import MeshSolution, PairKernels
+from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
+from rollnip.sheet.checks import (
+    compression_reservations,
+    curved_tension_reservations,
+    may_slide_at_any_speed,
+    require_grip,
+    require_torque,
+    sheet_verdict,
+    simpler_geometry_reservations,
+)
+from rollnip.sheet.membrane.formulation import MembraneFormulation
+from rollnip.sheet.membrane.search import MembraneIterate
+from rollnip.sheet.one_geometry import solve_in_geometry
+from rollnip.sheet.plate.solve import membrane_limit, solve_plate
+from rollnip.sheet.refine import Refined
+from rollnip.sheet.solution import SheetSolution
+from rollnip.sheet.status import with_errors_in_status
+from rollnip.validity import StrainSizes, validity_reservations
+
+# Largest relative change of a width over the ratio of bending length to nip width, among the nips
+# of decision 16, and the largest such ratio among them.
+_WIDTHS_BY_STIFFNESS, _WIDTHS_MEASURED = 2.0, 0.2
+Record = tuple[str, tuple[Reservation, ...]]
+"""Version of rollnip, and reservations that are known before the sheet is solved."""
+
+
+def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
+    """Solve the steady rolling of two rollers with a sheet between them.
+
+    The sheet is solved as a plate where its bending stiffness is asked for, or where it is left
+    open and the spreading length is not small against the nip width. Otherwise, or where no plate
+    solution can be verified, it is solved as a membrane.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    model : geometry "linear", "curved", "second" or "finite".
+    cache : influence functions from earlier solves.
+    version : of rollnip, for the record.
+
+    Raises
+    ------
+    InvalidInputError
+        where the geometry is "corrected", or friction cannot carry what is prescribed.
+    ConvergenceError
+        where no solution was found at all.
+    """
+    start = perf_counter()
+    if model.geometry == "corrected":
+        raise InvalidInputError(
+            '`geometry` must be "linear", "curved", "second" or "finite" with a sheet, '
+            'got "corrected".'
+        )
+    require_torque(nip)
+    assert nip.sheet is not None
+    bending, limit = nip.sheet.bending, membrane_limit(nip, model, cache)
+    record: Record = (version, ())
+    if bending or (bending is None and spreading_length(nip) > limit):
+        solution = solve_plate(nip, model, cache, record)
+        if solution is not None:
+            return solution
+        if bending_length(nip) > limit:  # otherwise the errors cover the tension's effect
+            text = "No solution with the sheet's bending stiffness could be verified."
+            record = (version, (Reservation("no_plate", text),))
+    return _solve_as_membrane(nip, model, cache, record, start)
+
+
+def _solve_as_membrane(
+    nip: Nip,
+    model: Model,
+    cache: KernelCache,
+    record: Record,
+    start: float,
+) -> SheetSolution:
+    """Return the solution of the sheet as a membrane.
+
+    ``record``: version, and why a bending stiffness that matters was neglected; in that case the
+    solution does not count as verified.
+    """
+    version, no_plate = record
+    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
+    require_grip(nip, refined)
+    final = membrane_mesh_solution(nip, refined)
+    converged, status = (
+        (False, no_plate[0].text) if no_plate else sheet_verdict(nip, model, refined, final)
+    )
+    strains = StrainSizes.of(nip, model, final)
+    solution = SheetSolution(
+        nip=nip,
+        model=model,
+        converged=converged,
+        status=status,
+        reservations=consistent(
+            no_plate
+            + on_geometry
+            + _reservations(nip, refined)
+            + curved_tension_reservations(nip, model)
+            + validity_reservations(nip, model, final, strains)
+        ),
+        solver=refined.solver_info(perf_counter() - start, version),
+        final=final,
+        kernels=kernels,
+        max_surface_strain=strains.surface,
+        refined=refined,
+    )
+    return with_errors_in_status(solution)
+
+
+def _solve_with_fallback(
+    nip: Nip, model: Model, cache: KernelCache
+) -> tuple[Model, PairKernels, Refined[MembraneIterate], tuple[Reservation, ...]]:
+    """Return the solved model, influence functions, the solution, and reservations on the model.
+
+    Where the asked geometry has no settled solution, simpler ones are tried in turn.
+    """
+    unsolved: list[Geometry] = []
+    while True:
+        kernels, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
+        simpler = SIMPLER.get(model.geometry)
+        if refined is not None and (simpler is None or refined.iterate.settled):
+            reservations = simpler_geometry_reservations(unsolved, model.geometry)
+            return model, kernels, refined, reservations
+        if simpler is None:
+            require_torque(nip, 1.0)
+            raise ConvergenceError(_none_found(nip))
+        unsolved.append(model.geometry)
+        model = replace(model, geometry=simpler)
+
+
+def _none_found(nip: Nip) -> str:
+    """Return the error message for a sheet without a solution."""
+    assert nip.sheet is not None
+    if may_slide_at_any_speed(nip):
+        return (
+            "No solution with this sheet was found. Rollers geared so far apart may slide on both "
+            "of its sides all over, and these frictions and tensions hold it then at any speed "
+            "between theirs; lower the size of `creepage`, or make friction or tensions differ."
+        )
+    if nip.sheet.bending is False:
+        return (
+            "No solution with this sheet bending freely was found; leave `bending` out, or "
+            "try a larger load or other tensions."
+        )
+    return "No solution with this sheet was found; try a larger load or other tensions."
+
+
+def membrane_mesh_solution(nip: Nip, refined: Refined[MembraneIterate]) -> MeshSolution:
+    """Return a membrane solution in the form of a bare nip's, with the shear of the upper side."""
+    iterate = refined.iterate
+    mesh, lagged = iterate.problem.mesh, iterate.lagged
+    total = iterate.state.creepage + iterate.state.creepage_lower
+    problem = ContactProblem(
+        x=mesh.inner,
+        weights=mesh.weights,
+        clearance=0.5 * nip.curvature * mesh.inner**2 + lagged.clearance,
+        influence=mesh.influence,
+        creep_length=mesh.dx,
+        creep_offset=np.zeros(mesh.inner.size),
+        friction=nip.friction,
+        control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
+    )
+    return refined.upper_mesh_solution(
+        problem, iterate.state, (lagged.clearance, lagged.offsets[0])
+    )
+
+
+def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:
+    """Return the reservations on compression of the sheet and on its neglected bending."""
+    length = spreading_length(nip)
+    share = length / refined.figures.nip_width
+    if not share > STIFF:
+        return compression_reservations(refined.figures)
+    assert nip.sheet is not None
+    freely = Reservation(
+        "bends_freely",
+        "The bending stiffness of the sheet and its tension count over {length:.2g} mm, "
+        "{share:.0f} % of the nip width; they are left out, so pressure and nip width are those "
+        f"of a sheet that bends freely.{_how_far_off(share)}"
+        f"{_how_to_count(nip.sheet.bending, share)}",
+        {
+            "length": length,
+            "share": 100.0 * share,
+            "widths": 100.0 * _WIDTHS_BY_STIFFNESS * share,
+        },
+        excess=share / STIFF,
+    )
+    return (*compression_reservations(refined.figures), freely)
+
+
+def _how_far_off(share: float) -> str:
+    """Return the sentence on the error of the widths, for a spreading length over the nip width."""
+    if share > _WIDTHS_MEASURED:
+        return " Both may be far off."
+    return (
+        " The widths on its two sides may be up to {widths:.0f} % off, one too small, the other "
+        "too large; a sheet that is pulled may lie on one roller further still."
+    )
+
+
+def _how_to_count(bending: bool | None, share: float) -> str:
+    if share <= COUNTED:
+        return " `bending = true` in the sheet counts them." if bending is None else ""
+    return " Without `bending = false` they are counted." if bending is False else ""

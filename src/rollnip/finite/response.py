@@ -22,7 +22,7 @@ from rollnip.finite.columns import Columns
 from rollnip.finite.equilibrium import Body
 from rollnip.finite.nodal_tractions import Linear, NodalTractions
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.state import GMRES_TOLERANCE, MeshState, NoEquilibriumError
+from rollnip.finite.state import MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
@@ -33,12 +33,6 @@ _FRONT = 0.8  # largest arc of the front side, over the radius: x increases with
 _SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
 _SAME_PLACE = 0.01  # largest move of column ends with which it is, over the width of the contact
 _STEP_TOLERANCE = 0.01  # tolerance of equilibria, over their first Newton step
-# While tractions are far from their solution:
-_COARSE_WAVE_SHARE = 0.5  # factor of the cut-off
-_COARSE_MOVE_FACTOR = 2.5  # factor of `_SAME_PLACE`
-_COARSE_MOVE_FACTOR_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
-_COARSE_RESIDUAL = 1e-4  # relative residual of iterative linear solutions
-
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
 _LEAST_FRACTION = 0.1  # of the tractions, or of their change, until which load steps are halved
 _MOST_MESHES = 6  # until the columns lie where they should
@@ -156,12 +150,6 @@ class FiniteResponse:
         if roller.curvature > 0.0:
             self._near = min(self._near, _FRONT * roller.radius)
         self._mesh = None if start is None else self._mesh_from(start)
-        self._coarse_factor = 1.0
-        self._move_factor, self._gmres_tolerance = 1.0, GMRES_TOLERANCE
-        self._coarse_move_factor = (
-            _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
-        )
-        self._linear_error: Array | None = None
         self._low_pass: LowPass | None = None
         self._low_pass_made_for: Array | None = None
         self._last_correction: tuple[Spline, ...] | None = None
@@ -201,7 +189,6 @@ class FiniteResponse:
         shear: Array,
         rate: float = 1.0,
         *,
-        roughly: bool = False,
         has_several_zones: bool = False,
     ) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z as functions of the present place x.
@@ -211,13 +198,8 @@ class FiniteResponse:
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         rate : speed of the undeformed surface over that of linear theory.
-        roughly : save time while tractions are far from their solution: keep the last mesh even if
-            the contact has moved a little more, and its error as last evaluated; half the cut-off.
         has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
         """
-        self._gmres_tolerance = _COARSE_RESIDUAL if roughly else GMRES_TOLERANCE
-        self._coarse_factor = _COARSE_WAVE_SHARE if roughly else 1.0
-        self._move_factor = self._coarse_move_factor if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
             self.rough, self.extra_heat, self.arc_tractions = _no_correction(nodes), 0.0, None
@@ -233,26 +215,25 @@ class FiniteResponse:
             self.rough = self._last_correction = self._last_correction or _no_correction(nodes)
             return self._last_correction
         self.is_found, self._mesh = True, mesh
-        self.rough = self._unfiltered_correction(mesh, roughly=roughly)
+        self.rough = self._unfiltered_correction(mesh)
         start, stop = places[loaded][[0, -1]]
         self._last_correction = self._low_pass_for(float(start), float(stop))(self.rough)
         return self._last_correction
 
-    def _unfiltered_correction(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
+    def _unfiltered_correction(self, mesh: _LoadedMesh) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
-        if not roughly or self._linear_error is None or self._linear_error.shape != u.shape:
-            self._linear_error = self._error_in_linear_theory(mesh, x, surface.arcs[near])
-        u -= self._linear_error + mesh.applied.linear_displacement(self._linear, x)
+        u -= self._error_in_linear_theory(mesh, x, surface.arcs[near])
+        u -= mesh.applied.linear_displacement(self._linear, x)
         spline = Spline.natural_quintic if self._columns.skin < np.inf else Spline.natural_cubic
         return tuple(spline(x, row) for row in u)
 
     def _low_pass_for(self, start: float, stop: float) -> LowPass:
         """Return the filter for a contact; the last one as long as that has about its size."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
-        cut = self._cut_factor * self._coarse_factor * max(self._cut / half, self._columns.cut)
+        cut = self._cut_factor * max(self._cut / half, self._columns.cut)
         given, last = np.array([middle, half, 1.0 / cut]), self._low_pass_made_for
         sizes = np.array([half, half, 1.0 / cut])
         if last is None or np.any(np.abs(given - last) > _SAME_SIZE * sizes):
@@ -269,7 +250,7 @@ class FiniteResponse:
         """
         self.arc_tractions = moved = mesh.applied.at_arcs(x, arcs)
         tractions = moved.as_function
-        linear = mesh.flat.linear_displacements(tractions, self._gmres_tolerance)
+        linear = mesh.flat.linear_displacements(tractions)
         if mesh.body.memory is not None:
             heat = heat_inside(mesh.body, mesh.state.displacement, mesh.applied.as_function)
             self.extra_heat = heat - linear_heat_inside(mesh.flat, linear, tractions)
@@ -324,7 +305,7 @@ class FiniteResponse:
     ) -> _LoadedMesh:
         """Return the equilibrium under these tractions, on the last mesh if that lies well."""
         last, tractions = self._mesh, applied.as_function
-        tolerance = self._move_factor * _SAME_PLACE * float(np.ptp(places[loaded]))
+        tolerance = _SAME_PLACE * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
             state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
             return replace(last, state=state, applied=applied)
@@ -334,7 +315,7 @@ class FiniteResponse:
             moved = applied.linear_displacement(self._linear, places[loaded])[0]
             flat, body = self._bodies_on(places, loaded, places[loaded] - moved)
             arcs = applied.at_arcs(places[loaded], places[loaded] - moved)
-            state = flat.linear_state(arcs.as_function, self._gmres_tolerance)
+            state = flat.linear_state(arcs.as_function)
         for _ in range(_MOST_MESHES):
             state = body.equilibrium(tractions, state, step_tolerance=_STEP_TOLERANCE)
             mesh = _LoadedMesh(flat, body, state, loaded, applied)

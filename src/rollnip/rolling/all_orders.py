@@ -157,7 +157,7 @@ def _from_nearby(
     if near is None or start is None:
         return None
     correction = PairCorrection.of(nip, kernels, half_width, strain, bodies=near.bodies)
-    found = _iterate(nip, model, start, correction, ContactStage.REFINED, is_too_deep, is_near=True)
+    found = _iterate(nip, model, start, correction, ContactStage.REFINED, is_too_deep)
     return None if isinstance(found, IterationFailure) else found
 
 
@@ -267,8 +267,6 @@ def _iterate(
     correction: PairCorrection,
     stage: ContactStage,
     is_too_deep: IsTooDeep,
-    *,
-    is_near: bool = False,
 ) -> tuple[PairKernels, MeshSolution] | IterationFailure:
     """Iterate contact and correction, with one cut-off.
 
@@ -281,7 +279,6 @@ def _iterate(
     start : influence functions with the first correction, and the contact solved with it.
     correction : the finite elements.
     stage : of that contact.
-    is_near : whether the first correction is that of a similar nip.
     """
     kernels, latest = start
     change, restarts, mixer = inf, 0, AndersonMixer(places_by_the_edges(_edges(latest)))
@@ -290,21 +287,19 @@ def _iterate(
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
-            is_far = stage is ContactStage.COARSE or (iteration == 0 and not is_near)
-            roughly = is_far and latest.is_placed
-            new, is_full_load = correction.of_contact(latest, kernels, roughly=roughly)
+            new, is_full_load = correction.of_contact(latest, kernels)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
             break
         iterations = iteration + 1
         updated = replace(kernels, held=new)
         before, change = change, _change_of_terms(nip, model, updated, latest)
-        if stage is ContactStage.REFINED and change < SMALL_CHANGE and is_full_load and not roughly:
+        if stage is ContactStage.REFINED and change < SMALL_CHANGE and is_full_load:
             checked = _with_own_correction(nip, model, updated, latest, change)
             violation, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if best.may_stop((updated, checked), violation, change / model.tolerance, cut):
                 break
-            if iteration == 0:  # with the correction of a similar nip: no measure for later ones
+            if iteration == 0:  # with a correction of other tractions: no measure for later ones
                 best = BestSolution()
         accelerated = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, new))
         kernels, latest = accelerated, _holding(latest, accelerated)

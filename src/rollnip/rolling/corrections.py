@@ -75,9 +75,7 @@ class PairCorrection:
         upper = response(nip.upper, kernels.upper, bodies[0])
         return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), cut_factor)
 
-    def of_contact(
-        self, latest: MeshSolution, kernels: PairKernels, *, roughly: bool
-    ) -> tuple[SecondFields, bool]:
+    def of_contact(self, latest: MeshSolution, kernels: PairKernels) -> tuple[SecondFields, bool]:
         """Return the correction of a solution without a sheet, see `of_tractions`.
 
         Where friction grips a stiff skin the stretch of both surfaces belongs to it. The correction
@@ -88,7 +86,7 @@ class PairCorrection:
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
         has_several_zones = len(latest.zones) > 1
         correction, is_full_load = self.of_tractions(
-            sides, latest.state.creepage, roughly=roughly, has_several_zones=has_several_zones
+            sides, latest.state.creepage, has_several_zones=has_several_zones
         )
         if not grips_skin(self.nip):
             return correction, is_full_load
@@ -102,7 +100,6 @@ class PairCorrection:
         sides: tuple[RollerTractions, RollerTractions],
         creepage: float,
         *,
-        roughly: bool,
         has_several_zones: bool = False,
     ) -> tuple[SecondFields, bool]:
         """Return the correction under given tractions of both rollers.
@@ -111,7 +108,6 @@ class PairCorrection:
         ----------
         sides : tractions of the upper and of the lower roller.
         creepage : of the upper roller against the lower one.
-        roughly : whether tractions are far from their solution, see `FiniteResponse.correction`.
         has_several_zones : whether the contact has zones of stick and of slip.
 
         Returns
@@ -133,12 +129,11 @@ class PairCorrection:
                 rough += [None, None]
                 continue
             functions += response.correction(
-                *sides[side], rates[side], roughly=roughly, has_several_zones=has_several_zones
+                *sides[side], rates[side], has_several_zones=has_several_zones
             )
             rough += response.rough
             lost[side] = response.extra_heat
-            if not roughly:
-                lost[side] += _heat_by_arcs(rollers[side], self.nip.speed, response, sides[side])
+            lost[side] += _heat_by_arcs(rollers[side], self.nip.speed, response, sides[side])
             is_full_load = is_full_load and response.load_fraction == 1.0
             if not response.is_found:
                 raise NoEquilibriumError

@@ -48,10 +48,8 @@ def solve_by_iteration(
 
     The iteration starts on a coarse mesh, from the linear displacements, until the remaining
     changes are small. Then the mesh is refined, and the iteration continues until the contact
-    conditions are met with the corrections that follow from the solution itself. Only the first
-    correction, under tractions that are far off, may be evaluated roughly: an error of a later one
-    would reappear on the finest mesh. Where the iteration does not converge, it is repeated with
-    fewer of the short waves.
+    conditions are met with the corrections that follow from the solution itself. Where the
+    iteration does not converge, it is repeated with fewer of the short waves.
 
     Returns
     -------
@@ -147,7 +145,7 @@ def _iterate_until_settled(
     for _ in range(MOST_CORRECTIONS):
         iterate, refined = contact.iterate, contact.refined
         creepage = sum(iterate.state.creepages)
-        made, is_whole = orders.of_tractions(_sides(iterate), creepage, roughly=change == inf)
+        made, is_whole = orders.of_tractions(_sides(iterate), creepage)
         smooth = replace(kernels, held=made)
         own = formulation.with_corrections(iterate, smooth)
         before, change = change, own.change

@@ -141,3 +141,80 @@ def test_finite_strain_refuses_what_it_presses_in_by_more_than_half():
     assert solution.model.geometry == "finite"
     assert "is pressed in by 57 %" in solution.status
     assert solution.solver.elements < 100
+
+
+def _with_layers(layers, load):
+    return replace(NIP, upper=rn.Roller(radius=50.0, layers=layers), normal=rn.LineLoad(load))
+
+
+def test_finite_strain_counts_a_soft_layer_as_it_is():
+    """0.5 mm on 8 mm, pressed in by 46 and 52 %; linear fields under its tractions: 72 and 87 %."""
+    soft, below = rn.Elastic(modulus=0.4, poisson=0.1), rn.Elastic(modulus=1.0, poisson=0.3)
+    layers = [rn.Layer(0.5, soft), rn.Layer(8.0, below)]
+    good = rn.solve(replace(_with_layers(layers, 3.0), friction=0.0))
+    assert good.model.geometry == "finite"
+    assert good.converged
+    place = good.nodes[np.argmax(good.pressure)]
+    depths = np.array([0.0, 0.5, 8.5])
+    pressed = -np.diff(good.interior("upper", z=depths, x=place).u_z[:, 0]) / np.diff(depths)
+    assert pressed[0] == pytest.approx(0.463, abs=0.005)
+    deep = rn.solve(replace(_with_layers(layers, 4.0), friction=0.0))
+    assert not deep.converged
+    assert "0.5 mm thick, is pressed in by 52 %" in deep.status
+
+
+def test_plies_of_one_layer_count_as_it_does():
+    """By 60 %, as a whole and, nearly, as two: the lower one is held a little less."""
+    foam = rn.Elastic(modulus=0.2, poisson=0.3)
+    for layers in ([rn.Layer(4.0, foam)], [rn.Layer(2.0, foam)] * 2):
+        nip = replace(_with_layers(layers, 2.0), friction=0.0)
+        solution = rn.solve(nip, rn.Model(geometry="curved"))
+        assert solution.approach == pytest.approx(0.599 * 4.0, abs=0.01)
+        assert "mm thick, is pressed in by 60 %" in solution.status
+
+
+@pytest.mark.parametrize("geometry", ["curved", "second", "finite"])
+def test_layers_share_what_the_surface_moves(geometry):
+    """Of the order of the model: linear fields move the surface by up to 16 % more."""
+    soft, below = rn.Elastic(modulus=0.4, poisson=0.1), rn.Elastic(modulus=1.0, poisson=0.3)
+    layers = [rn.Layer(0.5, soft), rn.Layer(8.0, below)]
+    nip = replace(_with_layers(layers, 2.0), friction=0.0)
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    assert solution.model.geometry == geometry
+    checks = importlib.import_module("rollnip.no_nip")
+    side, roller, shares = checks._pressed_in_by(0.0, nip, geometry, solution.final)
+    assert (side, roller) == ("upper", nip.upper)
+    assert shares @ (0.5, 8.0) == pytest.approx(solution.approach, rel=1e-3)
+
+
+def test_a_strain_energy_that_yields_counts_too():
+    """55 % under a peak of a fifth of the modulus, which presses no neo-Hookean layer in so far."""
+    foam = rn.Elastic(
+        modulus=1.0, poisson=0.0, energy=rn.materials.Ogden(terms=((1.0, 10.0),), volumetric="log")
+    )
+    nip = replace(_with_layers([rn.Layer(2.0, foam)], 2.0), friction=0.0)
+    solution = rn.solve(nip)
+    assert solution.peak_pressure < 0.25
+    assert not solution.converged
+    assert "2 mm thick, is pressed in by 55 %" in solution.status
+
+
+@pytest.mark.parametrize(("across", "is_nip"), [(5.0, True), (1.5, False)])
+def test_a_sheet_loses_no_more_of_its_thickness_than_it_has(across, is_nip):
+    """p (1 - nu^2)/E_z at a pressure of some 1.2 MPa: by a fifth, or by seven tenths."""
+    rubber = rn.Elastic(modulus=5.0, poisson=0.5)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=[rn.Layer(5.0, rubber)]),
+        lower=rn.Roller(radius=50.0),
+        normal=rn.LineLoad(10.0),
+        friction=0.3,
+        sheet=rn.Sheet(
+            thickness=0.1, modulus=100.0, poisson=0.3, modulus_thickness=across, bending=False
+        ),
+    )
+    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    lost = solution.peak_pressure * (1.0 - 0.3**2) / across
+    assert solution.converged == is_nip
+    assert (lost < 0.5) == is_nip
+    if not is_nip:
+        assert f"0.1 mm thick, is pressed together by {100.0 * lost:.0f} %" in solution.status

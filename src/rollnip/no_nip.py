@@ -6,15 +6,16 @@ from math import isnan
 
 import numpy as np
 
-from rollnip.interior import SurfaceTractions, interior_field
+from rollnip.interior import SurfaceTractions, beyond_linear, interior_field
+from rollnip.materials import NeoHookean
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling import MeshSolution, rates_of
 from rollnip.rolling.surfaces import Array
 
 MOST_PRESSED_IN = 0.5
-"""Compression of a layer over its thickness, at most.
+"""Compression of a layer or a sheet over its thickness, at most.
 
 Small-strain kinematics count u/d where the material sees -ln(1 - u/d): at one half these are 40 %
 apart, and at 1 the surface has reached the core. Finite strain counts it right, but was compared up
@@ -33,11 +34,8 @@ def impossible(nip: Nip, geometry: Geometry, final: MeshSolution) -> str:
             "rotate backwards. Strains are far too large for this nip; lower the traction or the "
             "load."
         )
-    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
-        pressed = _pressed_in(side, roller, nip, geometry, final)
-        if pressed.size and np.max(pressed) >= MOST_PRESSED_IN:
-            return too_deep(side, int(np.argmax(pressed)), pressed, roller)
-    return ""
+    deep = _pressed_in_by(MOST_PRESSED_IN, nip, geometry, final)
+    return _sheet_too_thin(nip, final) if deep is None else _too_deep(*deep)
 
 
 def is_too_deep(nip: Nip, geometry: Geometry, found: MeshSolution, *, is_rough: bool) -> bool:
@@ -48,16 +46,29 @@ def is_too_deep(nip: Nip, geometry: Geometry, found: MeshSolution, *, is_rough: 
     by 0.57 of its thickness and more where `curved` does so by all of it (Poisson ratios of 0.3 to
     0.5, thicknesses of 0.002 to 0.3 of the radius).
     """
-    most = 1.0 if is_rough else MOST_PRESSED_IN
-    both = (("upper", nip.upper), ("lower", nip.lower))
-    return any(
-        bool(np.any(_pressed_in(side, roller, nip, geometry, found) >= most))
-        for side, roller in both
-    )
+    share = MOST_PRESSED_IN
+    if is_rough:
+        share, geometry = 1.0, ("curved" if geometry == "finite" else geometry)
+    return _pressed_in_by(share, nip, geometry, found) is not None
 
 
-def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
+def _pressed_in_by(
+    share: float, nip: Nip, geometry: Geometry, found: MeshSolution
+) -> tuple[str, Roller, Array] | None:
+    """Return a roller with a layer pressed in by such a share of its thickness, and its layers'.
+
+    None where there is none.
+    """
+    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        pressed = _pressed_in(side, roller, nip, geometry, found)
+        if np.any(pressed >= share):
+            return side, roller, pressed
+    return None
+
+
+def _too_deep(side: str, roller: Roller, pressed: Array) -> str:
     """Return the sentence on a layer that is pressed in too far."""
+    number = int(np.argmax(pressed))
     many = len(roller.layers) > 1
     what = f"Layer {number + 1} (from the surface)" if many else "The covering"
     return (
@@ -68,29 +79,59 @@ def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
     )
 
 
+def _sheet_too_thin(nip: Nip, final: MeshSolution) -> str:
+    """Return the sentence on a sheet that loses too much of its thickness; "" if it does not."""
+    if nip.sheet is None:
+        return ""
+    lost = final.figures.peak_pressure * nip.sheet.squeeze / nip.sheet.thickness
+    if lost < MOST_PRESSED_IN:
+        return ""
+    return (
+        f"The sheet, {nip.sheet.thickness:g} mm thick, is pressed together by {100.0 * lost:.0f} % "
+        f"of its thickness; beyond {100.0 * MOST_PRESSED_IN:.0f} % none of the models here holds. "
+        "Lower the load, or take a larger `modulus_thickness`."
+    )
+
+
 def _pressed_in(
     side: str, roller: Roller, nip: Nip, geometry: Geometry, final: MeshSolution
 ) -> Array:
     """Return the compression of each layer over its thickness, under the deepest surface point.
 
-    Nothing is returned where no layer can be pressed in too far. A free column under the peak is
-    compressed by the ratio of pressure and modulus, and what lies beside holds a layer (of 181
-    random layers none was compressed by 1.04 times that ratio); nor is a layer compressed by more
-    than the surface moves.
+    Nothing is returned where no layer can be pressed in too far: none is compressed by more than
+    the surface moves, nor by more than a free column under the peak is, the ratio of pressure and
+    modulus, for what lies beside holds a layer (of 181 random layers none was compressed by 1.04
+    times that ratio). A strain energy may yield more.
+
+    Finite strain is seen inside by finite elements. Otherwise layers share what the surface moves
+    as in linear theory, so that plies of one layer together count as that layer does.
     """
     most, peak = MOST_PRESSED_IN, final.figures.peak_pressure
-    soft = [one.thickness for one in roller.layers if peak >= most * one.material.relaxed_modulus]
+    soft = [
+        one.thickness
+        for one in roller.layers
+        if peak >= most * one.material.relaxed_modulus
+        or not isinstance(one.material.energy, NeoHookean | None)
+    ]
     if not soft:
         return np.zeros(0)
     u = final.displacements
     inward, sign = (u.z_upper, 1.0) if side == "upper" else (u.z_lower, -1.0)
     deepest = int(np.argmax(np.where(final.state.pressure > 0.0, inward[:-1], -np.inf)))
-    if len(roller.layers) == 1 and roller.core is None:
-        return np.array([inward[deepest] / roller.layers[0].thickness])
-    if roller.core is None and inward[deepest] < most * min(soft):
+    moved = float(inward[deepest])
+    if roller.core is None and moved < most * min(soft):
         return np.zeros(0)
+    if len(roller.layers) == 1 and roller.core is None:
+        return np.array([moved / roller.layers[0].thickness])
     tractions = SurfaceTractions.on_inner(final.nodes, sign * final.shear, final.pressure)
-    depths = np.array([0.0, *roller.interfaces])
-    place = final.mesh.inner[[deepest]]
-    field = interior_field(roller, tractions, depths, place, geometry=geometry, speed=nip.speed)
-    return np.asarray(-np.diff(field.u_z[:, 0]) / np.diff(depths))
+    depths, place = np.array([0.0, *roller.interfaces]), final.mesh.inner[[deepest]]
+    speeds = None
+    if nip.speed is not None:
+        rate = rates_of(geometry, final.state.creepage)[0 if side == "upper" else 1]
+        speeds = (nip.speed, rate * nip.speed)
+    beyond = beyond_linear(roller, geometry, tractions, speeds)
+    field = interior_field(
+        roller, tractions, depths, place, geometry=geometry, speed=nip.speed, beyond=beyond
+    )
+    shares = -np.diff(field.u_z[:, 0]) / np.diff(depths)
+    return np.asarray(shares if roller.core else shares * (moved / float(field.u_z[0, 0])))

@@ -70,6 +70,17 @@ def test_the_shear_modulus_at_rest_is_one(energy):
     assert energy.principal(np.ones((3, 1)))[:, 0] == pytest.approx(energy.rest)
 
 
+@pytest.mark.parametrize("energy", ENERGIES, ids=repr)
+def test_poissons_ratio_at_rest_is_that_of_linear_theory(energy):
+    """Yeoh's and Gent's energies added 2 f''(0) G to lambda, so that E and nu were others."""
+    small = 1e-4
+    stretches = np.array([[1.0 + small, 1.0 - small], [1.0, 1.0], [1.0, 1.0]])
+    own, other, _ = np.diff(energy.principal(stretches)[:, ::-1], axis=1)[:, 0] / (2.0 * small)
+    # psi = G (w - r ln J) + U: of linear theory 2 G along a stretch, and nothing across it
+    assert own + energy.rest == pytest.approx(2.0, abs=1e-6)
+    assert other == pytest.approx(0.0, abs=1e-6)
+
+
 def test_chebyshev_functions_are_smooth_at_equal_stretches():
     """The series near equal stretches and the closed form beyond meet to rounding."""
     spread = 2.0 * np.array([0.99999e-4, 1.00001e-4])

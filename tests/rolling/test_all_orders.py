@@ -3,10 +3,13 @@
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import rollnip as rn
 from rollnip.finite import FiniteResponse
+from rollnip.materials import Gent, Yeoh
 from rollnip.rolling import contact_stages, zone_meshes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -75,3 +78,31 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
     for both in ((last, last), (mean, last)):
         contact_stages.restart(None, None, both, latest)
     assert held_by == [last.held, mean.held, last.held]
+
+
+@pytest.mark.parametrize("energy", [Yeoh(second=0.5), Gent(limit=2.0)], ids=repr)
+def test_a_thin_compressible_layer_is_pressed_in_as_columns_are(energy):
+    """Layers of half a millimetre, 5 mm wide: each point is in uniaxial strain, by hand."""
+    layer, radius, load = 0.5, 250.0, 6.0
+    rubber = rn.Elastic(modulus=3.0, poisson=0.3, energy=energy)
+    upper = rn.Roller(radius=500.0, layers=[rn.Layer(layer, rubber)])
+    nip = rn.Nip(upper=upper, lower=rn.Roller(radius=500.0), normal=rn.LineLoad(load), friction=0.0)
+    solution = rn.solve(nip)
+    assert solution.converged
+    shear = 3.0 / 2.6
+    lame = 2.0 * shear * 0.3 / 0.4
+
+    def pressure(depth):
+        left = np.atleast_1d(1.0 - depth / layer)
+        along = energy.principal(np.stack([np.ones_like(left)] * 2 + [left]))[2]
+        return -shear * (along - 1.0 / left) - energy.volume_slopes(left, lame)[0]
+
+    def excess(approach):
+        half = np.sqrt(2.0 * radius * approach)
+        x = np.linspace(-half, half, 2001)
+        return np.trapezoid(pressure(approach - x**2 / (2.0 * radius)), x) - load
+
+    approach = brentq(excess, 0.01, 0.2)
+    # what columns hold of each other at the edges is of the order of (0.5/6)^2
+    assert solution.approach == pytest.approx(approach, rel=3e-3)
+    assert solution.peak_pressure == pytest.approx(float(pressure(approach)[0]), rel=5e-3)

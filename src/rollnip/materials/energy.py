@@ -112,30 +112,37 @@ class Energy(ABC):
 
 
 class _OfFirstInvariant(Energy):
-    """An energy w = f(I1 - 3)/2 with f'(0) = 1."""
+    """An energy w = f(I1 - 3 - 2 ln J)/2 + ln J with f'(0) = 1.
+
+    The argument has no term of first order in the strain. With I1 - 3 alone, a change of volume
+    would meet the curvature of f, and 2 f''(0) G would be added to lambda at rest.
+    """
 
     @abstractmethod
     def _by_excess(self, excess: Array) -> tuple[Array, Array]:
-        """Return f' and f'' at I1 - 3."""
+        """Return f' and f'' at I1 - 3 - 2 ln J."""
 
     @abstractmethod
     def _at(self, excess: Array) -> Array:
-        """Return f at I1 - 3."""
+        """Return f at I1 - 3 - 2 ln J."""
 
     def value(self, volume: Array, spread: Array) -> Array:
-        """Return w = f/2."""
-        return np.asarray(0.5 * self._at(spread + 2.0 * (volume - 1.0)))
+        """Return w = f/2 + ln J."""
+        log = np.log1p(volume - 1.0)
+        return np.asarray(0.5 * self._at(spread + 2.0 * (volume - 1.0 - log)) + log)
 
     def slopes(self, volume: Array, spread: Array) -> Slopes:
         """Return the derivatives of w with respect to I and J in plane strain."""
-        first, second = self._by_excess(spread + 2.0 * (volume - 1.0))
-        none = np.zeros_like(first)
-        return Slopes(0.5 * first, none, 0.5 * second, none, none)
+        first, second = self._by_excess(spread + 2.0 * (volume - 1.0 - np.log(volume)))
+        j = (1.0 - first) / volume
+        jj = (2.0 * second - 1.0 + first) / volume**2
+        return Slopes(0.5 * first, j, 0.5 * second, -second / volume, jj)
 
     def principal(self, stretches: Array) -> Array:
-        """Return dw/dl_i = f' l_i."""
-        first, _ = self._by_excess((stretches**2).sum(axis=0) - 3.0)
-        return np.asarray(first * stretches)
+        """Return dw/dl_i = f' (l_i - 1/l_i) + 1/l_i."""
+        log = np.log(np.prod(stretches, axis=0))
+        first, _ = self._by_excess((stretches**2).sum(axis=0) - 3.0 - 2.0 * log)
+        return np.asarray(first * (stretches - 1.0 / stretches) + 1.0 / stretches)
 
 
 @dataclass(frozen=True)
@@ -157,7 +164,10 @@ class NeoHookean(_OfFirstInvariant):
 
 @dataclass(frozen=True)
 class Yeoh(_OfFirstInvariant):
-    """2 w = I + b I^2 + c I^3 with I = I1 - 3 (Yeoh 1993, Rubber Chem. Technol. 66, 754-771).
+    """2 w = I + b I^2 + c I^3 + 2 ln J with I = I1 - 3 - 2 ln J.
+
+    Where the volume stays as it is, J = 1, this is the energy of Yeoh 1993, Rubber Chem. Technol.
+    66, 754-771.
 
     Parameters
     ----------
@@ -188,14 +198,14 @@ class Yeoh(_OfFirstInvariant):
 
 @dataclass(frozen=True)
 class Gent(_OfFirstInvariant):
-    """2 w = -m ln(1 - (I1 - 3)/m): chains are fully extended at I1 - 3 = m.
+    """2 w = -m ln(1 - I/m) + 2 ln J with I = I1 - 3 - 2 ln J: chains are fully extended at I = m.
 
     Gent 1996, Rubber Chem. Technol. 69, 59-61.
 
     Parameters
     ----------
     limit :
-        m, the limit of I1 - 3; positive.
+        m, the limit of I; positive.
 
     Raises
     ------

@@ -4,7 +4,9 @@ import io
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from rich.console import Console
 from typer.testing import CliRunner
@@ -72,6 +74,14 @@ def test_what_could_not_be_computed_is_null_in_json_and_said_in_the_table():
     assert (tree["cases"][0]["got"], tree["cases"][0]["error"]) == (None, None)
     json.dumps(tree, allow_nan=False)
     assert "It did not settle." in shown([outcome], 80)
+
+
+def test_numbers_of_arrays_become_those_of_json():
+    """Closed forms may give numpy's numbers: a truth of numpy ended in a traceback."""
+    case = cases_about(QUICK)[0]
+    case = replace(case, expected=np.float64(case.expected), tolerance=np.float64(1e-3))
+    tree = verification.document([VerificationResult(case, np.float64(case.expected))])
+    assert json.loads(json.dumps(tree))["passed"] is True
 
 
 def test_markdown():

@@ -111,7 +111,7 @@ class Experiment:
 
 @dataclass(frozen=True, slots=True)
 class VerificationResult:
-    """VerificationResult of one verification case.
+    """The outcome of one verification case.
 
     Attributes
     ----------
@@ -131,12 +131,12 @@ class VerificationResult:
         """|got - expected|/scale; inf where nothing was computed."""
         if not isfinite(self.got):
             return inf
-        return abs(self.got - self.case.expected) / self.case.scale
+        return float(abs(self.got - self.case.expected) / self.case.scale)
 
     @property
     def passed(self) -> bool:
         """Return whether the error is within the tolerance."""
-        return self.error <= self.case.tolerance
+        return bool(self.error <= self.case.tolerance)
 
 
 def verify(cases: Iterable[VerificationCase]) -> Iterator[VerificationResult]:

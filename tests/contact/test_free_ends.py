@@ -419,3 +419,36 @@ def test_a_smooth_end_is_found_further_inside_where_the_first_nodes_tell_none():
     layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
     assert layout.with_proposed_ends(x, state, 0.5).breaks[1] - 1.0 == pytest.approx(short, rel=0.2)
+
+
+class TestReversals:
+    """Stick where slip changes its sign; its length falls with the friction."""
+
+    ZONES = Layout(
+        np.array([-1.0, -0.4, -0.3, 1.0]),
+        np.array([State.SLIP_PLUS, State.STICK, State.SLIP_MINUS], dtype=np.int8),
+    )
+
+    def proposed(self, start, stop):
+        return Layout(np.array([-1.0, start, stop, 1.0]), self.ZONES.states)
+
+    def test_stick_between_slip_of_either_sign_is_one(self):
+        assert self.ZONES.reversals == [1]
+        alike = np.array([State.SLIP_PLUS, State.STICK, State.SLIP_PLUS], dtype=np.int8)
+        assert Layout(self.ZONES.breaks, alike).reversals == []
+
+    def test_ends_that_keep_a_length_are_taken(self):
+        wanted = self.proposed(-0.38, -0.33)
+        assert np.array_equal(self.ZONES.with_reversals(wanted, 0.01).breaks, wanted.breaks)
+
+    def test_ends_that_cross_move_the_zone_as_a_whole(self):
+        found = self.ZONES.with_reversals(self.proposed(-0.2, -0.25), 0.01)
+        assert found.breaks == pytest.approx([-1.0, -0.25, -0.2, 1.0])  # about -0.225, half as long
+
+    def test_a_zone_keeps_the_shortest_length_that_is_looked_for(self):
+        found = self.ZONES.with_reversals(self.proposed(-0.35, -0.351), 0.08)
+        assert np.diff(found.breaks)[1] == pytest.approx(0.08)
+
+    def test_a_zone_that_sees_nothing_grows(self):
+        found = self.ZONES.with_reversals(self.proposed(-np.inf, np.inf), 0.01)
+        assert found.breaks == pytest.approx([-1.0, -0.45, -0.25, 1.0])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.closed_forms import carter, contact_modulus
+from rollnip.closed_forms import carter, contact_modulus, free_rolling_vanishing_friction
 from rollnip.contact import Layout, State
 from rollnip.rolling import half_width_guess, pair_kernels, refinement
 from rollnip.rolling.free_ends import with_free_ends
@@ -182,3 +182,27 @@ def test_few_elements_do_where_the_stretch_is_of_second_order():
     solution = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4))
     assert solution.converged
     assert solution.solver.elements < 150
+
+
+@pytest.mark.parametrize("friction", [1e-4, 3e-4, 1e-3])
+def test_slip_reverses_where_vanishing_friction_says(friction):
+    """Bentall & Johnson: in free rolling of unlike rollers slip changes its sign twice."""
+    shears, poissons = (23000.0, 82000.0), (0.31, 0.28)
+    cores = [rn.Elastic.from_shear_modulus(*both) for both in zip(shears, poissons, strict=True)]
+    upper, lower = (rn.Roller(radius=50.0, core=core) for core in cores)
+    nip = rn.Nip(upper=upper, lower=lower, normal=rn.LineLoad(16.2019), friction=friction)
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    assert solution.converged
+    exact = free_rolling_vanishing_friction(
+        load=16.2019,
+        radius=25.0,
+        shear_modulus_upper=shears[0],
+        poisson_upper=poissons[0],
+        shear_modulus_lower=shears[1],
+        poisson_lower=poissons[1],
+    )
+    assert [zone.state for zone in solution.zones] == ["slip", "stick", "slip", "stick", "slip"]
+    # of first order in the friction, about four times it over the width
+    assert solution.creepage == pytest.approx(exact.creepage, rel=3e-3 + 10.0 * friction)
+    middles = [0.5 * (z.start + z.stop) for z in solution.zones if z.state == "stick"]
+    assert 0.5 * (middles[1] - middles[0]) == pytest.approx(exact.reversal, rel=0.01)

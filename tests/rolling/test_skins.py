@@ -78,9 +78,12 @@ def test_pressure_rises_from_an_edge(nip, geometry):
 @pytest.mark.parametrize("nip", [figure_4(0.1), skin(3)])
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_a_peak_at_a_misplaced_edge_is_no_peak(nip, friction):
-    """Edges off by a twentieth of a per cent of the width, as while corrections still change."""
+    """Edges off by a twentieth of a per cent of the width, as while corrections still change.
+
+    On a mesh fine enough for that to make a peak of the pressure at the first nodes.
+    """
     nip = replace(nip, friction=friction)
-    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    solution = rn.solve(nip, rn.Model(geometry="curved", tolerance=2e-4))
     right = solution.final
     layout = Layout.of(right.zones)
     assert layout is not None

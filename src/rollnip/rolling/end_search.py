@@ -26,6 +26,7 @@ from rollnip.rolling.iterations import (
     held_from,
     solve_on_mesh,
 )
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import Array, PairKernels
@@ -81,7 +82,9 @@ class ZoneSolver:
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
-        return latest, layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
+        proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
+        shortest = shortest_zone(self.nip, self.model, layout.width)
+        return latest, layout.with_reversals(proposed, shortest)
 
     def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.

@@ -30,7 +30,7 @@ from rollnip.rolling.zone_meshes import are_too_many
 MOST_MESHES = 8
 # Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
 # by more than a boundary layer is found by bisection, as a solution shows only in which direction
-# it should move.
+# it should move. Likewise for a zone of stick where slip changes its sign, whose length is halved.
 _MOST_HALVINGS = 6
 
 
@@ -65,7 +65,7 @@ class Placing:
         """
         # The second order held so far is from a coarser mesh: each size evaluates its own.
         search = EndSearch.of(self.solver, replace(start, expected=inf), count)
-        most_meshes = self._most_meshes(self.solver.meshes.crowding(start.layout))
+        most_meshes = self._most_meshes(start.layout)
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
             step = search.solve_mesh()
             # The figures show errors of ends only with the zones of the previous size.
@@ -192,10 +192,11 @@ class Placing:
         cell = np.searchsorted(x, places)
         return bool(np.isin(cell, (breaks, breaks + 1)).any())
 
-    def _most_meshes(self, crowding: tuple[float, ...]) -> int:
+    def _most_meshes(self, layout: Layout) -> int:
+        crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        if len(crowding) == 1 and crowding[0] < 1.0:
+        if (len(crowding) == 1 and crowding[0] < 1.0) or layout.reversals:
             most += _MOST_HALVINGS
         return most
 

@@ -169,7 +169,7 @@ class ZoneSearch:
         """
         given = latest.state.states
         found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
-        if np.array_equal(found.states, given):
+        if not found.settled or np.array_equal(found.states, given):
             return None
         pieces = contact_intervals(edges.zones)
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)

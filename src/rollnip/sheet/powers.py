@@ -6,8 +6,8 @@ distance. Slip dissipates int q_u (creep of the upper interface) V of that power
 the lower interface. The rest goes into the sheet:
 V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds. In `linear` that is the work against
 its tensions plus the elastic energy that it carries away. With the curvature of the path it differs
-from that by terms of the order of V_s int h kappa/2 (q_u + q_l) ds, which the growth of the tension,
-q_u - q_l, leaves out: in thick sheets on small rollers some per cent of the power into the sheet.
+from that by terms of the order of V_s int h kappa/2 (q_u + q_l) ds, which the growth of the
+tension, q_u - q_l, leaves out: with thick sheets on small rollers some per cent of that power.
 """
 
 from __future__ import annotations

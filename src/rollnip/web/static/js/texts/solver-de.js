@@ -76,6 +76,7 @@ export const SOLVER_DE = {
   "solver.no-better": "Der geschätzte Fehler ({figure}) ist {error} %, mehr als die Toleranz {tolerance}: Kein Netz macht {what} genauer. Verlangen Sie eine Toleranz von {finest} oder mehr, oder das Modell „Gekrümmte Schichten“ oder „Lineare Theorie“.",
   "solver.backwards": "Der Schlupf kommt als {creepage} heraus: Unter -2 und über 2 liefe eine Walze rückwärts. Die Dehnungen sind für diesen Spalt viel zu groß; verringern Sie Umfangskraft oder Last.",
   "solver.too-deep": "{what} der {side} Walze ist bei {thickness} mm Dicke um {pressed} % eingedrückt; über {limit} % gilt keines der Modelle hier. Verringern Sie Last oder Annäherung, oder nehmen Sie einen dickeren oder härteren Bezug.",
+  "solver.sheet-too-thin": "Die {thickness} mm dicke Bahn ist um {pressed} % ihrer Dicke zusammengedrückt; über {limit} % gilt keines der Modelle hier. Verringern Sie die Last, oder nehmen Sie ein größeres `modulus_thickness`.",
   "solver.thick-curved": "Der Bezug der {side} Walze ist {ratio} ihres Radius dick; über {limit} wächst der Fehler des Schlupfs auf etwa 20 % (bei 0,4). Im Modell „Endliche Dehnung“ beträgt er höchstens 1,5 %.",
   "solver.skin": "Eine steife Deckschicht biegt sich und lässt sich kaum dehnen: Glieder dritter Ordnung, die das Modell „Endliche Dehnung, zweite Ordnung“ weglässt, können den Schlupf um etwa {change} ändern (er ist {creepage}).",
   "solver.skin-finite": "Das Modell „Endliche Dehnung“ enthält sie, für Schichten auf starren Kernen.",

@@ -76,6 +76,7 @@ export const SOLVER_EN = {
   "solver.no-better": `The estimated error of the {figure} is {error} %, more than the tolerance {tolerance}: no mesh makes {what} better. Ask for a tolerance of {finest} or more, or for geometry "curved" or "linear".`,
   "solver.backwards": "The creepage comes out as {creepage}: beyond -2 and 2 one roller would rotate backwards. Strains are far too large for this nip; lower the traction or the load.",
   "solver.too-deep": "{what} of the {side} roller, {thickness} mm thick, is pressed in by {pressed} % of its thickness; beyond {limit} % none of the models here holds. Lower the load or the approach, or take a thicker or harder covering.",
+  "solver.sheet-too-thin": "The sheet, {thickness} mm thick, is pressed together by {pressed} % of its thickness; beyond {limit} % none of the models here holds. Lower the load, or take a larger `modulus_thickness`.",
   "solver.thick-curved": `The covering of the {side} roller is {ratio} of its radius; beyond {limit} the error of the creepage grows to some 20 % (at 0.4). In geometry "finite" it is at most 1.5 %.`,
   "solver.skin": `A stiff top layer bends and resists stretch like a sheet: terms of third order, which geometry "second" leaves out, may change the creepage by about {change} (it is {creepage}).`,
   "solver.skin-finite": `Geometry "finite", for layers on rigid cores, includes them.`,

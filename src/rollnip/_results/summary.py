@@ -45,7 +45,7 @@ def line(figure: Figure, solution: Any) -> Line:
         return Line(figure.label, "-", note=figure.undefined or "not defined")
     error = figure.error(solution)
     shown = ""
-    if error is not None and error > ROUNDING * abs(value):
+    if error is not None and error > max(ROUNDING * abs(value), figure.noise(solution)):
         shown = f"± {format_quantity(abs(error * figure.factor), digits=2)}"
     return Line(figure.label, figure.number(value), figure.shown_unit, shown)
 

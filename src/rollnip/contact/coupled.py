@@ -99,7 +99,7 @@ class LinearSystem:
         if approach is None:
             approach = float(unknowns[-2])
         if creepage is None:
-            creepage = float(unknowns[-1]) if problem.friction > 0.0 else np.nan
+            creepage = float(unknowns[-1]) + 0.0 if problem.friction > 0.0 else np.nan  # not -0
         return ContactState(self.states, pressure, shear, approach, creepage, steps, settled)
 
     def _unknowns(self, problem: ContactProblem) -> Array:

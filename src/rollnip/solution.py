@@ -354,7 +354,7 @@ class Solution(Presented, ABC):
 
     @property
     def _heat_beyond(self) -> tuple[float, float]:
-        """What finite strain adds to the heat of the upper and lower roller, over V [N/mm]."""
+        """Heat of the upper and lower roller beyond linear theory, over V [N/mm]."""
         return 0.0, 0.0
 
     @property

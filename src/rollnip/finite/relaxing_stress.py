@@ -146,7 +146,7 @@ class RelaxingStress:
 
     @cached_property
     def volume_law(self) -> tuple[Array | float, Array | float]:
-        """What the relaxing part of lambda m adds to U' and to U'' at the Gauss points."""
+        """Terms that the relaxing part of lambda m adds to U' and U'' at the Gauss points."""
         if self.volume is None:
             return 0.0, 0.0
         lame, _, slope, bend = self.volume

@@ -32,7 +32,7 @@ class Predictor(Protocol):
 
 
 class Workforce(Protocol):
-    """What solves nips, possibly in parallel; `rollnip.sweeps.Together` is one."""
+    """A solver of many nips, possibly in parallel; `rollnip.sweeps.Together` is one."""
 
     @property
     def evaluate(self) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:

@@ -80,7 +80,7 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class RadialTable:
-    """What layers add to the half-space of the top layer, over the distance from a point force.
+    """Response of layers beyond the half-space of the top one, by distance from a point force.
 
     Attributes
     ----------

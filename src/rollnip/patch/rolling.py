@@ -77,7 +77,7 @@ class RollingProblem:
 
     @cached_property
     def contact(self) -> Mask:
-        """Where the surfaces touch, (ny, nx)."""
+        """The rectangles where the surfaces touch, (ny, nx)."""
         return np.asarray(self.bound > 0.0)
 
     @cached_property

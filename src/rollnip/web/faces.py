@@ -12,6 +12,7 @@ from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.face import (
     FaceSolution,
     NipLaw,
+    NipRows,
     SheetLaw,
     even_crown,
     face_problem,
@@ -31,6 +32,7 @@ from rollnip.web.kept import Kept
 Array = NDArray[np.float64]
 
 _KEPT = 4  # tables, some ten kB each
+_MOST_ROWS = 5000  # plane nips, some 300 bytes each: the crown is found from those of the face
 _FEW = 5  # places along the face where only its shafts are checked
 _PLACES = {
     "end_loads": "face.end_loads",
@@ -51,8 +53,8 @@ class Faces:
     """
 
     def __init__(self, kernels: KernelCache) -> None:
-        self._kernels = kernels
         self._laws: Kept[NipLaw | SheetLaw] = Kept(_KEPT)
+        self._rows = NipRows(kernels, most=_MOST_ROWS)
 
     def face(self, case: Case) -> dict[str, Any]:
         """Return the key "face" of the result of a case; with "crown", radii over those nominal.
@@ -78,7 +80,7 @@ class Faces:
         face = face_of(case)
         _check(case.nip, face)
         try:
-            best = even_crown(case.nip, face, case.model, roller=roller, cache=self._kernels)
+            best = even_crown(case.nip, face, case.model, roller=roller, rows=self._rows)
         except InvalidInputError as error:
             raise _placed(error, roller) from None
         crowned = with_crown(case.nip, roller, Crown(best.height))
@@ -100,7 +102,7 @@ class Faces:
         key = repr((_section(nip), case.model))
         law = self._laws.get(key)
         try:
-            solution = solve_face(nip, face, case.model, law=law, cache=self._kernels)
+            solution = solve_face(nip, face, case.model, law=law, rows=self._rows)
         except InvalidInputError as error:
             raise _placed(error) from None
         self._laws.put(key, solution.law)

@@ -248,23 +248,19 @@ class Layout:
         """Return the proposed zones with a stick of some length wherever slip changes its sign.
 
         There the surfaces stick over a length that falls with the friction. Where the proposed ends
-        of such a zone cross, or leave it shorter than ``least`` [mm], they tell only where its
-        middle should be, and no further than it is long: it moves there, at half its length. A zone
-        whose ends are given no place stays, at twice its length, to see further.
+        of such a zone cross, or leave it shorter than ``least`` [mm], or where one of them is given
+        no place, they tell only where its middle should be, and no further than it is long: it
+        moves there, at half its length.
         """
         breaks = proposed.breaks.copy()
         for start in self.reversals:
             ends = [start, start + 1]
             now, then = self.breaks[ends], proposed.breaks[ends]
-            if then[1] - then[0] >= least and np.isfinite(then).all():
-                continue
-            middle, length, given = now.mean(), now[1] - now[0], np.isfinite(then)
-            if given.any():
-                middle += (then - now)[given].mean()
-                length = max(0.5 * length, least)
-            else:
-                length = max(2.0 * length, least)
-            breaks[ends] = middle - 0.5 * length, middle + 0.5 * length
+            given = np.isfinite(then)
+            if given.any() and not (given.all() and then[1] - then[0] >= least):
+                middle = now.mean() + (then - now)[given].mean()
+                half_length = 0.5 * max(0.5 * (now[1] - now[0]), least)
+                breaks[ends] = middle - half_length, middle + half_length
         return Layout(breaks, self.states)
 
     def with_gap(self, start: float, stop: float) -> Layout | None:

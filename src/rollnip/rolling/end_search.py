@@ -83,8 +83,11 @@ class ZoneSolver:
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
         proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
-        shortest = shortest_zone(self.nip, self.model, layout.width)
-        return latest, layout.with_reversals(proposed, shortest)
+        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        if not has_stiff_skin((self.nip.upper, self.nip.lower)):
+            shortest = shortest_zone(self.nip, self.model, layout.width)
+            proposed = layout.with_reversals(proposed, shortest)
+        return latest, proposed
 
     def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.

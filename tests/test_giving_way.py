@@ -132,7 +132,10 @@ def test_tractions_without_equilibrium_are_led_up_to():
 
 
 @pytest.mark.slow
-def test_how_far_turns_got_is_said():
+def test_how_far_turns_got_is_said(monkeypatch):
+    # Of thirty iterations some contact on the way may have no equilibrium, which another sentence
+    # says; six end by their number.
+    monkeypatch.setattr(all_orders, "MOST_CORRECTIONS", 6)
     solution = rn.solve(stretched(2e-3))
     assert solution.model.geometry == "second"
     said = re.fullmatch(

@@ -28,7 +28,6 @@ from rollnip.finite.follower_load import FollowerLoad, Tractions, summed
 from rollnip.finite.memory import Memory
 from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.state import (
-    GMRES_TOLERANCE,
     MeshState,
     NoEquilibriumError,
     PointFields,
@@ -301,18 +300,18 @@ class Body:
             raise NoEquilibriumError
         return Tangent((band, 0), factors, None, *derivatives, order=self.strip.order)
 
-    def linear_displacements(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> Array:
+    def linear_displacements(self, tractions: Tractions) -> Array:
         """Return the displacements of linear theory, (unknowns,) [mm].
 
         The tractions are given at undeformed arcs, per undeformed arc, along the tangent and the
-        normal of the undeformed surface. ``rtol``: relative residual of an iterative solution.
+        normal of the undeformed surface.
         """
         load = FollowerLoad.undeformed(self.strip, tractions)
-        return self.initial_tangent.solve(load.nodal_forces, rtol)
+        return self.initial_tangent.solve(load.nodal_forces)
 
-    def linear_state(self, tractions: Tractions, rtol: float = GMRES_TOLERANCE) -> MeshState:
+    def linear_state(self, tractions: Tractions) -> MeshState:
         """Return the displacements of linear theory, as above, with their pressures."""
-        displacement = self.linear_displacements(tractions, rtol)
+        displacement = self.linear_displacements(tractions)
         pressure = self.initial_tangent.pressure_changes(self.strip.local(displacement))
         return MeshState(displacement, pressure)
 

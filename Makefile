@@ -72,7 +72,7 @@ test-second-half: venv
 	$(FAST) $(addprefix --ignore=,$(HALF))
 
 SLOW := $(BIN)/python -m pytest -m slow
-LAWS := $(addprefix tests/,properties rolling sheet)
+LAWS := $(addprefix tests/,all_orders properties rolling sheet)
 
 test-slow: venv ## the tests that take more: with killed processes, on many random nips, of the built pages
 	$(SLOW) --ignore=tests/browser

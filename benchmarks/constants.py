@@ -31,7 +31,7 @@ from population import random_case
 import rollnip as rn
 from rollnip.influence import KernelCache
 
-FLOORS = ("contact", "influence", "rolling")
+FLOORS = ("contact", "influence", "rolling", "all_orders")
 FIRST = 300_000  # number of the first nip; neither tests nor tuning use these
 FINITE_SHARE = 6  # every so many nips is solved in "second" too
 # Tables of influence functions are kept between solves, but not where a constant changes them.

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import all_orders
+from rollnip.all_orders import iteration
 
 SECOND = rn.Model(geometry="second")
 
@@ -135,7 +135,7 @@ def test_tractions_without_equilibrium_are_led_up_to():
 def test_how_far_turns_got_is_said(monkeypatch):
     # Of thirty iterations some contact on the way may have no equilibrium, which another sentence
     # says; six end by their number.
-    monkeypatch.setattr(all_orders, "MOST_CORRECTIONS", 6)
+    monkeypatch.setattr(iteration, "MOST_CORRECTIONS", 6)
     solution = rn.solve(stretched(2e-3))
     assert solution.model.geometry == "second"
     said = re.fullmatch(
@@ -144,7 +144,7 @@ def test_how_far_turns_got_is_said(monkeypatch):
         r'the first-order ones\)\. All figures are those of geometry "second"\.',
         solution.warnings[0],
     )
-    assert int(said[1]) == all_orders.MOST_CORRECTIONS
+    assert int(said[1]) == iteration.MOST_CORRECTIONS
     assert float(said[2]) > 10.0 * solution.model.tolerance
 
 

@@ -24,6 +24,7 @@ import numpy as np
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_instance
+from rollnip.all_orders import Nearby, refine_all_orders, with_second_order
 from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
@@ -32,14 +33,11 @@ from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
     IterationFailure,
     MeshSolution,
-    Nearby,
     PairKernels,
     half_width_guess,
     has_grip,
     pair_kernels,
     refine,
-    refine_all_orders,
-    with_second_order,
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.all_orders import with_second_order
 from rollnip.contact import Layout
 from rollnip.influence import KernelCache
-from rollnip.rolling import half_width_guess, pair_kernels, with_second_order
+from rollnip.rolling import half_width_guess, pair_kernels
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import SIZES, by_nodes
 from rollnip.rolling.search import SearchState

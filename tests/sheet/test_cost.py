@@ -8,8 +8,8 @@ import pytest
 from sheet_population import random_case
 
 import rollnip as rn
+from rollnip.all_orders.corrections import PairCorrection
 from rollnip.rolling import zone_meshes
-from rollnip.rolling.corrections import PairCorrection
 from rollnip.sheet.membrane import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -9,9 +9,9 @@ from sheet_nips import RIGID, SOFT, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
+from rollnip.all_orders.corrections import PairCorrection
 from rollnip.finite import NoEquilibriumError, columns, strip
 from rollnip.rolling import surface_depths
-from rollnip.rolling.corrections import PairCorrection
 from rollnip.sheet import finite_strain
 from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap
 

@@ -13,11 +13,10 @@
 5. The contact conditions are evaluated between the nodes as well (`check`). Their residual and the
    estimated errors give the errors that the figures claim (`claimed_errors`).
 
-At finite strain a correction of all orders is held fixed through steps 2 to 4, then evaluated again
-from their solution, until the two agree (`all_orders`, `contact_stages`, `corrections`).
+In "finite" this contact is solved again and again, each time with another correction by finite
+elements held fixed: see `rollnip.all_orders`.
 """
 
-from rollnip.rolling.all_orders import refine_all_orders, with_second_order
 from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.check import (
     PairFields,
@@ -43,7 +42,6 @@ from rollnip.rolling.mesh_solution import (
     peak_pressure,
     peaks_alike,
 )
-from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.power_balance import Powers, powers, rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.secondary import secondary_figures, secondary_sizes
@@ -59,7 +57,6 @@ __all__ = [
     "Figures",
     "IterationFailure",
     "MeshSolution",
-    "Nearby",
     "PairFields",
     "PairKernels",
     "Powers",
@@ -79,7 +76,6 @@ __all__ = [
     "powers",
     "rates_of",
     "refine",
-    "refine_all_orders",
     "relative_claims",
     "secondary_claims",
     "secondary_figures",
@@ -87,5 +83,4 @@ __all__ = [
     "stretch_excess",
     "surface_depths",
     "surface_strain_in_nip",
-    "with_second_order",
 ]

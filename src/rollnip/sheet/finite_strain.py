@@ -1,6 +1,6 @@
 """Finite strain of all orders with a sheet: contact and finite-element corrections by iteration.
 
-As in a bare nip (`rollnip.rolling.all_orders`), the displacements of a surface are the linear ones
+As in a bare nip (`rollnip.all_orders`), the displacements of a surface are the linear ones
 plus a correction, which is held constant while a contact is solved. With a sheet each roller has
 its own tractions, the pressure and the shear of its interface, and its correction follows from
 these alone. The iteration is therefore that of a bare nip, and the sheet takes no part in it.
@@ -14,23 +14,25 @@ from typing import Generic
 
 import numpy as np
 
-from rollnip.finite import NoEquilibriumError
-from rollnip.model import Model
-from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.all_orders import (
-    CUT_FACTORS,
-    MOST_CORRECTIONS,
-    SKIN_TOLERANCE,
-    SMALL_CHANGE,
+from rollnip.all_orders.acceleration import (
     AndersonMixer,
     BestSolution,
     even_places,
     places_by_the_edges,
 )
+from rollnip.all_orders.contact_stages import NEARLY_CONVERGED, coarse_model
+from rollnip.all_orders.corrections import PairCorrection, RollerTractions
+from rollnip.all_orders.iteration import (
+    CUT_FACTORS,
+    MOST_CORRECTIONS,
+    SKIN_TOLERANCE,
+    SMALL_CHANGE,
+)
+from rollnip.finite import NoEquilibriumError
+from rollnip.model import Model
+from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
-from rollnip.rolling.contact_stages import NEARLY_CONVERGED, coarse_model
-from rollnip.rolling.corrections import PairCorrection, RollerTractions
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from rollnip.all_orders import with_second_order
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.rolling import PairKernels, half_width_guess, pair_kernels, with_second_order
+from rollnip.rolling import PairKernels, half_width_guess, pair_kernels
 from rollnip.sheet.checks import half_width_with_sheet
 from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.formulation import Formulation, IterateT

@@ -8,9 +8,10 @@ import pytest
 from scipy.optimize import brentq
 
 import rollnip as rn
+from rollnip.all_orders import contact_stages
 from rollnip.finite import FiniteResponse
 from rollnip.materials import Gent, Yeoh
-from rollnip.rolling import contact_stages, zone_meshes
+from rollnip.rolling import zone_meshes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

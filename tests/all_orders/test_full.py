@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.all_orders import acceleration, corrections
 from rollnip.paper import configuration, figure_4
-from rollnip.rolling import all_orders, corrections
 
 DATA = Path(__file__).parents[1] / "data"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -265,7 +265,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     """
     found = []
     for enough in (1.0, 0.03):
-        monkeypatch.setattr(all_orders, "CONVERGED", enough)
+        monkeypatch.setattr(acceleration, "CONVERGED", enough)
         found.append(rn.solve(figure_4(0.31)))
     rough, fine = found
     assert rough.final.residual > 5e-4 > 5.0 * fine.final.residual
@@ -388,13 +388,13 @@ def test_a_memory_against_a_calculation_in_time(stored):
 def test_a_skin_takes_few_turns(monkeypatch):
     """Turns begin from the linear displacements: under a skin the second order misleads them."""
     turns = []
-    beyond_of = all_orders.PairCorrection.of_contact
+    beyond_of = corrections.PairCorrection.of_contact
 
     def counted(self, *given, **named):
         turns.append(1)
         return beyond_of(self, *given, **named)
 
-    monkeypatch.setattr(all_orders.PairCorrection, "of_contact", counted)
+    monkeypatch.setattr(corrections.PairCorrection, "of_contact", counted)
     solution = rn.solve(rn.read_case(EXAMPLES / "figure-4-top-layer-0.1mm.toml").nip, FULL)
     assert solution.converged
     assert solution.model.geometry == "finite"

@@ -1,44 +1,15 @@
-"""Contacts in the geometries of finite strain: the fixed-point iteration of "finite".
-
-In "second" the second order of finite strain is added to the influence functions, and every mesh
-evaluates it anew. In "finite" all orders are included by finite elements:
-
-    u = u_linear(p, q) + d,    d = c(p, q).
-
-The contact is solved with a correction d that is kept fixed ("held"), then the correction c is
-evaluated by finite elements under the tractions of the solution, and so on until both agree.
-Anderson acceleration combines the last corrections. In free rolling the correction is a few
-hundredths of the first-order terms, and with elastic layers an iteration leaves a seventh of its
-error at most.
-
-Where surfaces slip or layers are viscoelastic, d is at first the second order, which costs less
-than an iteration with finite elements. Where friction grips a stiff skin there is no second order;
-the stretch of both surfaces is held as well.
-"""
+"""The iteration of contact and correction, for nips without a sheet."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
-from typing import Generic, Literal, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Literal
 
 from rollnip._largest import largest
-from rollnip.finite import NoEquilibriumError, Spline
-from rollnip.influence import KernelCache, SecondResponse
-from rollnip.model import Geometry, Model
-from rollnip.nip import Nip
-from rollnip.rollers import Roller
-from rollnip.rolling.assemble import second_order
-from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
-from rollnip.rolling.contact_stages import (
-    CONVERGED,
+from rollnip.all_orders.acceleration import AndersonMixer, BestSolution, places_by_the_edges
+from rollnip.all_orders.contact_stages import (
     NEARLY_CONVERGED,
     ContactStage,
     Convergence,
@@ -47,17 +18,23 @@ from rollnip.rolling.contact_stages import (
     refined_with_second_order,
     restart,
 )
-from rollnip.rolling.corrections import PairCorrection
-from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
+from rollnip.all_orders.corrections import PairCorrection
+from rollnip.all_orders.nearby import Nearby
+from rollnip.finite import NoEquilibriumError
+from rollnip.influence import KernelCache, SecondResponse
+from rollnip.model import Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rollers import Roller
+from rollnip.rolling.assemble import second_order
+from rollnip.rolling.changes import to_come_after
+from rollnip.rolling.check import surface_strain_in_nip
+from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
+from rollnip.rolling.displacements import NO_SECOND_ORDER, Stretch
 from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.mesh_solution import IterationFailure, MeshSolution
-from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.surfaces import PairKernels
 
-Array = NDArray[np.float64]
-_ANDERSON_DEPTH = 5  # corrections that Anderson acceleration combines
-_PLACES_COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # iterations with one cut-off
 SMALL_CHANGE = 0.05  # change of the correction in an iteration below which that may be the last one
 _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
@@ -161,105 +138,6 @@ def _from_nearby(
     return None if isinstance(found, IterationFailure) else found
 
 
-@dataclass
-class AndersonMixer:
-    """Anderson acceleration of the corrections (Anderson 1965, J. ACM 12, 547-560).
-
-    Of the last iterations it keeps the correction that the solution led to and its difference from
-    the one that the contact was solved with. The next correction is the combination of the former
-    for which the same combination of the differences is smallest.
-
-    Attributes
-    ----------
-    x : (n,) places at which corrections are compared [mm].
-    results : the last corrections that solutions led to, oldest first.
-    residuals : (4 n,) the differences of each at ``x``.
-    """
-
-    x: Array
-    results: list[SecondFields] = field(default_factory=list)
-    residuals: list[Array] = field(default_factory=list)
-
-    def mixed(self, held: SecondFields, new: SecondFields) -> SecondFields:
-        """Return the correction to solve with next.
-
-        ``held``: the one that the last contact was solved with; ``new``: the one that its solution
-        led to.
-        """
-        residual = (new.at(self.x).four - held.at(self.x).four).ravel()
-        self.results = [*self.results, new][-_ANDERSON_DEPTH:]
-        self.residuals = [*self.residuals, residual][-_ANDERSON_DEPTH:]
-        if len(self.results) == 1:
-            return new
-        steps = np.diff(np.array(self.residuals), axis=0)
-        back = np.linalg.lstsq(steps.T, residual, rcond=1e-3)[0]
-        return _weighted_sum(np.append(back, 1.0) - np.append(0.0, back), self.results)
-
-
-def _weighted_sum(weights: Array, fields: Sequence[SecondFields]) -> SecondFields:
-    """Return a weighted sum of corrections."""
-    functions: list[Field | None] = []
-    for several in zip(*(one.functions for one in fields), strict=True):
-        splines = [f for f in several if isinstance(f, Spline)]
-        functions.append(Spline.weighted_sum(weights, splines) if splines else None)
-    rough: list[Field | None] = []
-    for several in zip(*(one.rough for one in fields), strict=True):
-        given = tuple(f for f in several if f is not None)
-        rough.append(WeightedSum(tuple(weights.tolist()), given) if given else None)
-    lost = weights @ np.array([one.lost for one in fields])
-    both = float(lost[0]), float(lost[1])
-    stretch = _weighted_stretch(weights, fields)
-    return SecondFields(tuple(functions), lost=both, rough=tuple(rough), stretch=stretch)
-
-
-def _weighted_stretch(
-    weights: Array, fields: Sequence[SecondFields]
-) -> tuple[Stretch, Stretch] | None:
-    upper: list[tuple[float, Spline]] = []
-    lower: list[tuple[float, Spline]] = []
-    for share, one in zip(weights.tolist(), fields, strict=True):
-        if one.stretch is None:
-            return None
-        for parts, surface in zip((upper, lower), one.stretch, strict=True):
-            parts += [(share * weight, f) for weight, f in surface.parts]
-    return Stretch(tuple(upper)), Stretch(tuple(lower))
-
-
-Found = TypeVar("Found")
-
-
-@dataclass
-class BestSolution(Generic[Found]):
-    """The best solution so far: it violates the contact conditions least under its own correction.
-
-    Attributes
-    ----------
-    found : that solution; None as long as all violate the conditions by more than the tolerance.
-    violation : that by the last solution, over the tolerance.
-    """
-
-    found: Found | None = None
-    violation: float = inf
-
-    def may_stop(self, found: Found, violation: float, to_come: float, cut: float = 0.0) -> bool:
-        """Compare a further solution; return whether the iteration may stop with the best one.
-
-        It may when the violation or the changes to come are small, or the violation grew again.
-
-        Parameters
-        ----------
-        found : the solution.
-        violation : its violation of the contact conditions, over the tolerance.
-        to_come : last change of its correction, or sum of those to come, over the tolerance.
-        cut : violation on account of the cut-off, over the tolerance.
-        """
-        before, self.violation = self.violation, violation
-        if violation <= min(1.0, before):
-            self.found = found
-        enough = CONVERGED * max(1.0, cut)
-        return self.found is not None and (min(violation, to_come) <= enough or violation > before)
-
-
 def _iterate(
     nip: Nip,
     model: Model,
@@ -324,21 +202,6 @@ def _iterate(
 
 def _edges(latest: MeshSolution) -> tuple[float, float]:
     return latest.zones[0].start, latest.zones[-1].stop
-
-
-def even_places(edges: tuple[float, float]) -> Array:
-    """Return evenly spaced places at which corrections are compared.
-
-    With dense places beside the edges, short waves there would hide what converges slowly.
-    """
-    return np.linspace(*edges, _PLACES_COMPARED)
-
-
-def places_by_the_edges(edges: tuple[float, float]) -> Array:
-    """Return places that are dense beside the edges, where corrections converge last."""
-    start, stop = edges
-    shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _PLACES_COMPARED))
-    return np.asarray(start + (stop - start) * shares)
 
 
 def _with_own_correction(

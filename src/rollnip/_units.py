@@ -363,7 +363,7 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if unit in kind.units:
         return kind.units[unit]
     if not unit:
-        why = f"the unit is missing (a number without quotes in a file is in {kind.base})"
+        why = f'the unit is missing, as in "{value.strip()} {kind.base}"'
         raise _refusal(dimension, value, why)
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")

@@ -288,6 +288,25 @@ def test_a_scatter_with_a_wrong_unit_is_named_by_its_option(tmp_path, smooth):
     assert result.output.startswith("rollnip: --scatter: must be a length")
 
 
+@pytest.mark.parametrize(
+    ("rows", "options", "said"),
+    [
+        ("0,14\n900,13\n", (), "widths.csv: `y` must lie on the face, within 800 mm"),
+        ("0,14\n900,13\n", (), "its length is 1600 mm), got 900 mm."),
+        ("0,14\n-500,-13\n", (), "widths.csv: `width` must be positive and finite everywhere, "),
+        ("0,14\n-500,-13\n", (), "got -13 mm at y = -500 mm."),
+        ("0,14\n", (), "widths.csv: `width` must have as many values as there are unknowns, 2,"),
+        ("0,14\n9,13\n", ("--unknown", "hardness"), "--unknown: `unknowns` must be among load,"),
+        ("0,14\n9,13\n", ("--scatter", "0 mm"), "--scatter: `scatter` must be positive"),
+    ],
+)
+def test_a_wrong_value_of_an_impression_is_named_with_its_file(tmp_path, rows, options, said):
+    (tmp_path / "widths.csv").write_text("y [mm],width [mm]\n" + rows, "utf-8")
+    found = run("face", "read", EXAMPLE, tmp_path / "widths.csv", *options)
+    assert (found.exit_code, found.stdout) == (2, "")
+    assert said in found.stderr
+
+
 def test_a_large_error_of_the_shop_formula_has_no_exponent():
     assert [_per_cent(share, "+") for share in (0.018, -0.5, -1.0, 12.345)] == [
         "+1.8 %",

@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named
+from rollnip.cli.console import clear_failures, named, named_by
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -138,21 +138,25 @@ def read(
         y, found = table.samples("y", "length"), table.samples("width", "length")
         with named("--scatter"):
             spread = parse_quantity(scatter, "length")
-        impressions = [Impression(y, found, spread)]
-        if "load" in table.names:
-            loads = table.samples("load", "line load")
-            impressions = [
-                Impression(y[loads == one], found[loads == one], spread, float(one))
-                for one in sorted(set(loads.tolist()))
-            ]
-        reading = read_impressions(
-            nip,
-            along,
-            impressions,
-            tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
-            model,
-            roller=_roller(roller),
-        )
+        side = _roller(roller)
+        sources = dict.fromkeys(("y", "width", "load"), widths)
+        sources |= {"scatter": "--scatter", "unknowns": "--unknown"}
+        with named_by(sources, case):
+            impressions = [Impression(y, found, spread)]
+            if "load" in table.names:
+                loads = table.samples("load", "line load")
+                impressions = [
+                    Impression(y[loads == one], found[loads == one], spread, float(one))
+                    for one in sorted(set(loads.tolist()))
+                ]
+            reading = read_impressions(
+                nip,
+                along,
+                impressions,
+                tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
+                model,
+                roller=side,
+            )
         _print(reading_dict(reading) if json else _reading_text(reading))
 
 

@@ -221,8 +221,8 @@ def _question(
     unit = base_unit(dimension)
     if not low < high:
         raise InvalidInputError(
-            f"`low` must be below `high`, got {format_quantity(low, unit)} and "
-            f"{format_quantity(high, unit)}."
+            f"`low` must be below `high`; give the lower limit first, got "
+            f"{format_quantity(low, unit)} and {format_quantity(high, unit)}."
         )
     if not 1e-9 <= tolerance <= 0.1:
         raise InvalidInputError(f"`tolerance` must lie between 1e-9 and 0.1, got {tolerance!r}.")

@@ -337,9 +337,9 @@ def _write_case(
 
 
 def _json(tree: Any) -> str:
-    from json import dumps
+    from rollnip._json import json_text
 
-    return dumps(tree, indent=2, allow_nan=False) + "\n"
+    return json_text(tree) + "\n"
 
 
 def _text(found: Found, limit: str) -> str:

@@ -200,9 +200,9 @@ def _draw(solution: Any, plot: Path | None) -> None:
 
 
 def _print(what: dict[str, Any] | str) -> None:
-    from json import dumps
+    from rollnip._json import json_text
 
-    text = what if isinstance(what, str) else dumps(what, indent=2, allow_nan=False) + "\n"
+    text = what if isinstance(what, str) else json_text(what) + "\n"
     sys.stdout.write(text)
     sys.stdout.flush()
 

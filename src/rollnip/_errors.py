@@ -163,7 +163,7 @@ def _unnamed(kind: str, parameters: Sequence[Parameter], count: int) -> str:
     needed = [one.name for one in parameters if one.default is Parameter.empty]
     written = ", ".join(f"{name}=..." for name in needed or [parameters[0].name])
     return (
-        f"values of {kind} must be given by name, as in {kind}({written}), "
+        f"Values of {kind} must be given by name, as in {kind}({written}), "
         f"got {count} without a name."
     )
 

@@ -232,7 +232,7 @@ def test_plain_values_for_json():
         (("nip.load", "nip_width", 8, 1, float("inf")), "`high` must be a finite number"),
         (("nip.load", "nip_width", 8, 2, 1), "`low` must be below `high`, got 2.0 N/mm and"),
         (("nip.load", "nip_width", 8, 1, 1), "`low` must be below `high`"),
-        (("nip.load", "nip_width", 8, -2, -1), "not one of 5 cases"),
+        (("nip.load", "nip_width", 8, -2, -1), "Not one of 5 cases"),
         (("nip.load", "dwell_time", 8, 1, 2), "`dwell_time` is not defined there"),
         (("nip.load", "dissipation.viscous", "8 mm", 1, 2), "must be a finite number in mW/mm"),
     ],

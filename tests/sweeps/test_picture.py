@@ -65,6 +65,6 @@ def test_nothing_to_draw_is_said(case: dict[str, Any], tmp_path: Path) -> None:
     base.close()
     with (
         Store(tmp_path / "a.db") as store,
-        pytest.raises(InvalidInputError, match="no case was solved"),
+        pytest.raises(InvalidInputError, match="No case was solved"),
     ):
         plot_sweep(store)

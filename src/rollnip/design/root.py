@@ -235,7 +235,7 @@ def _require_some(question: _FindQuestion, points: Sequence[Point]) -> None:
         return
     first = points[0]
     raise InvalidInputError(
-        f"not one of {len(points)} cases with {question.path} between "
+        f"Not one of {len(points)} cases with {question.path} between "
         f"{question.said(question.low)} and {question.said(question.high)} could be solved; at "
         f"{question.said(first.x)}: {first.message.rstrip('.')}; try other limits."
     )

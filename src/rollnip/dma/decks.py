@@ -348,5 +348,5 @@ def _deck_of_ratios(
 
 def _float(text: str) -> float:
     if _NUMBER.fullmatch(text.strip()) is None:
-        raise InvalidInputError(f'a number must stand where "{text.strip()}" stands in the deck.')
+        raise InvalidInputError(f'A number must stand where "{text.strip()}" stands in the deck.')
     return float(text.strip().replace("D", "E").replace("d", "e"))

@@ -129,7 +129,7 @@ def _even_load(problem: FaceProblem) -> float:
         raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
     if moment is None or abs(moment) > _BALANCED * abs(total) * problem.face.length:
         raise InvalidInputError(
-            "a crown evens out a load only where both sides of the face carry the same: give equal "
+            "A crown evens out a load only where both sides of the face carry the same: give equal "
             "`end_loads`, and leave out `bearing_offset` and `bearing_middle`."
         )
     return total / problem.face.length

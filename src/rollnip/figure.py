@@ -291,14 +291,8 @@ class Figure:
         value = self.value(solution)
         if value is None:
             return None
-        return 0.0 if self.is_nothing(value, self.error(solution), solution) else value
-
-    def is_nothing(self, value: float, error: float | None, result: Any) -> bool:
-        """Return whether a value of the figure is a rounding error, or less than `LOST` of its own.
-
-        ``result`` is a solution, or a mapping from keys to values.
-        """
-        return abs(value) <= max(self.noise(result), LOST * (error or 0.0))
+        error = self.error(solution) or 0.0
+        return value if abs(value) > max(self.noise(solution), LOST * error) else 0.0
 
     def noise(self, result: Any) -> float:
         """Return the size below which the figure is a rounding error, in its base unit.

@@ -230,7 +230,10 @@ def test_plain_values_for_json():
         (("nip.load", "nip_width", float("nan"), 1, 2), "`wanted` must be a finite number"),
         (("nip.load", "nip_width", 8, "1 mm", 2), "`low` must be a force per length"),
         (("nip.load", "nip_width", 8, 1, float("inf")), "`high` must be a finite number"),
-        (("nip.load", "nip_width", 8, 2, 1), "`low` must be below `high`; give the lower limit first, got 2"),
+        (
+            ("nip.load", "nip_width", 8, 2, 1),
+            "`low` must be below `high`; give the lower limit first, got 2",
+        ),
         (("nip.load", "nip_width", 8, 1, 1), "`low` must be below `high`"),
         (("nip.load", "nip_width", 8, -2, -1), "Not one of 5 cases"),
         (("nip.load", "dwell_time", 8, 1, 2), "`dwell_time` is not defined there"),

@@ -232,7 +232,7 @@ def test_plain_values_for_json():
         (("nip.load", "nip_width", 8, 1, float("inf")), "`high` must be a finite number"),
         (
             ("nip.load", "nip_width", 8, 2, 1),
-            "`low` must be below `high`; give the lower limit first, got 2",
+            "`low` must be below `high`; give the lower limit first",
         ),
         (("nip.load", "nip_width", 8, 1, 1), "`low` must be below `high`"),
         (("nip.load", "nip_width", 8, -2, -1), "Not one of 5 cases"),

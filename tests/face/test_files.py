@@ -298,11 +298,14 @@ def test_a_scatter_with_a_wrong_unit_is_named_by_its_option(tmp_path, smooth):
         ("0,14\n", (), "widths.csv: `width` must have as many values as there are unknowns, 2,"),
         ("0,14\n9,13\n", ("--unknown", "hardness"), "--unknown: `unknowns` must be among load,"),
         ("0,14\n9,13\n", ("--scatter", "0 mm"), "--scatter: `scatter` must be positive"),
+        ("0,14\n-70,350\n", (), "widths.csv: `crown` must be small against the diameter"),
     ],
 )
-def test_a_wrong_value_of_an_impression_is_named_with_its_file(tmp_path, rows, options, said):
+def test_a_wrong_value_of_an_impression_is_named_with_its_file(
+    tmp_path, smooth, rows, options, said
+):
     (tmp_path / "widths.csv").write_text("y [mm],width [mm]\n" + rows, "utf-8")
-    found = run("face", "read", EXAMPLE, tmp_path / "widths.csv", *options)
+    found = run("face", "read", smooth, tmp_path / "widths.csv", *options)
     assert (found.exit_code, found.stdout) == (2, "")
     assert said in found.stderr
 

@@ -56,6 +56,10 @@ BAD = [
     (("uper",), {}, 'uper: is not a known key; did you mean "upper"?'),
     ((*LAYER, "thicknes"), 1, 'did you mean "thickness"?'),
     ((*LAYER, "material", "posson"), 1, "layers[0].material.posson: is not a known key; did you"),
+    (("upper", "diameter"), 1, 'upper.diameter: is not a known key; give "radius", half of it.'),
+    (("nip", "mu"), 1, 'nip.mu: is not a known key; give "friction".'),
+    ((*LAYER, "material", "hardness"), 1, 'material.hardness: is not a known key; give "shore_a"'),
+    (("nip", "friction"), "high", '"0.5 %", got "high": no number can be read from it.'),
     (("nip", "qqqq"), 1, "nip.qqqq: is not a known key here (known: load, approach,"),
     ((*BLACK, "order"), 1, "materials.black.order: is not a known key here"),
     (

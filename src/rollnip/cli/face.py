@@ -139,7 +139,8 @@ def read(
         with named("--scatter"):
             spread = parse_quantity(scatter, "length")
         side = _roller(roller)
-        sources = dict.fromkeys(("y", "width", "load"), widths)
+        # A crown that is too large is one that the widths ask for; the case's own was read before.
+        sources = dict.fromkeys(("y", "width", "load", "crown"), widths)
         sources |= {"scatter": "--scatter", "unknowns": "--unknown"}
         with named_by(sources, case):
             impressions = [Impression(y, found, spread)]

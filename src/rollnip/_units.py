@@ -271,8 +271,8 @@ def _read(value: str, dimension: Dimension) -> float:
         raise _refusal(dimension, value[:20] + "...", f"it is longer than {_LONGEST} characters")
     match = _QUANTITY.fullmatch(value.translate(_MINUS))
     if match is None:
-        number = "no number with a unit" if base_unit(dimension) else "no number"
-        raise _refusal(dimension, value, f"{number} can be read from it")
+        sought = "no number with a unit" if base_unit(dimension) else "no number"
+        raise _refusal(dimension, value, f"{sought} can be read from it")
     sign, digits, exponent, written = match.groups()
     scale, offset = _unit(_spelled(written), written, value, dimension)
     number = _number(sign, digits, exponent or "", value, dimension)

@@ -298,7 +298,8 @@ def test_a_scatter_with_a_wrong_unit_is_named_by_its_option(tmp_path, smooth):
         ("0,14\n", (), "widths.csv: `width` must have as many values as there are unknowns, 2,"),
         ("0,14\n9,13\n", ("--unknown", "hardness"), "--unknown: `unknowns` must be among load,"),
         ("0,14\n9,13\n", ("--scatter", "0 mm"), "--scatter: `scatter` must be positive"),
-        ("0,14\n-70,350\n", (), "widths.csv: `crown` must be small against the diameter"),
+        ("0,14\n-70,350\n", (), "widths.csv: `end_loads` must press between the ends of the"),
+        ("-70,350\n0,14\n70,350\n", (), "widths.csv: `crown` must be small against the diameter"),
     ],
 )
 def test_a_wrong_value_of_an_impression_is_named_with_its_file(

@@ -139,8 +139,9 @@ def read(
         with named("--scatter"):
             spread = parse_quantity(scatter, "length")
         side = _roller(roller)
-        # A crown that is too large is one that the widths ask for; the case's own was read before.
-        sources = dict.fromkeys(("y", "width", "load", "crown"), widths)
+        # What is wrong with a crown or with end loads here is what the widths ask for: those of the
+        # case were checked when it was read.
+        sources = dict.fromkeys(("y", "width", "load", "crown", "end_loads"), widths)
         sources |= {"scatter": "--scatter", "unknowns": "--unknown"}
         with named_by(sources, case):
             impressions = [Impression(y, found, spread)]

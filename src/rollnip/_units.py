@@ -364,7 +364,7 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if unit in kind.units:
         return kind.units[unit]
     if not unit:
-        raise _refusal(dimension, value, f'the unit is missing, as in "{value.strip()} {kind.base}"')
+        raise _refusal(dimension, value, f'it has no unit, as in "{value.strip()} {kind.base}"')
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
     if unit in _REFUSED:

@@ -254,10 +254,24 @@ def test_a_bar_tells_how_many_cross_sections_are_solved(monkeypatch):
     assert "40/40" in out.getvalue()
 
 
+@pytest.mark.parametrize(
+    ("within", "said"),
+    [
+        ("10", "--within: `within` must lie between 0 and 1, got 10.0."),
+        ("1 mm", "--within: must be a plain number"),
+    ],
+)
+def test_a_share_that_is_none_is_refused_before_anything_is_solved(smooth, within, said):
+    result = run("face", "crown", smooth, "--within", within)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert said in result.stderr
+
+
 def test_face_crown(smooth):
-    result = run("face", "crown", smooth, "--json")
+    result = run("face", "crown", smooth, "--json", "--within", "10 %")
     assert result.exit_code == 0, result.output
     tree = json.loads(result.stdout)
+    assert tree["loads"]["within"] == 0.1
     assert 0.4 < tree["height"] < 0.55
     assert tree["loads"]["low"] < 6.0 < tree["loads"]["high"]
 

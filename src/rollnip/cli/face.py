@@ -78,11 +78,11 @@ def crown(
     case: CaseFile,
     roller: Crowned = "upper",
     within: Annotated[
-        float,
+        str,
         typer.Option(
             help="Largest departure of the line load from its mean, as a share of the mean."
         ),
-    ] = 0.1,
+    ] = "10 %",
     json: Json = False,
     plot: Plot = None,
     force: Force = False,
@@ -94,15 +94,20 @@ def crown(
     with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
+        from rollnip._units import parse_quantity
         from rollnip.face import even_crown, load_range, plain_wall, with_crown
+        from rollnip.face.design import require_share
         from rollnip.shafts import Crown
 
         name = _roller(roller)
+        with named("--within"):
+            share = parse_quantity(within, "ratio")
+            require_share(share)
         best = even_crown(nip, along, model, roller=name)
         crowned = with_crown(nip, name, Crown(best.height))
         law = best.solution.law
-        loads = load_range(_at_mean(crowned, along), along, model, within=within, law=law)
-        wall = plain_wall(nip, along, model, within=within, roller=name, law=law)
+        loads = load_range(_at_mean(crowned, along), along, model, within=share, law=law)
+        wall = plain_wall(nip, along, model, within=share, roller=name, law=law)
         _draw(best.solution, plot)
         _print(_crown_dict(best, loads, wall) if json else _crown_text(best, loads, wall))
 

@@ -116,7 +116,7 @@ def test_reads_exactly(text, dimension, expected):
         ("2 MPa", "length", "that is a pressure"),
         ("5 mil", "pressure", "that is a length"),
         ("500 N", "line load", "that is a force"),
-        ("4.5", "length", "unit is missing"),
+        ("4.5", "length", "it has no unit"),
         ("", "length", "no number"),
         ("   ", "length", "no number"),
         ("mm", "length", "no number"),
@@ -139,7 +139,7 @@ def test_reads_exactly(text, dimension, expected):
         ("-inf", "length", "no number"),
         ("10 1/s", "frequency", "turns or radians"),
         ("10 s", "frequency", "that is a time"),
-        ("10", "angle", "the unit is missing"),
+        ("10", "angle", "it has no unit"),
         ("10 deg", "length", "that is an angle"),
     ],
 )

@@ -16,7 +16,7 @@ from rollnip.face.figures import (
     SHEET_FACE_FIGURES,
     SHEET_FACE_PROFILES,
 )
-from rollnip.figure import ROUNDING, Dimension
+from rollnip.figure import LOST, ROUNDING, Dimension
 from rollnip.figures import CLAIMED, FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
 from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES
 from rollnip.io import result_dict
@@ -168,6 +168,7 @@ def test_the_page_gets_the_registry_as_a_module():
         one["label"].casefold() == one["label"][0].lower() + one["label"][1:] for one in shown
     )
     assert json.loads(lines["ROUNDING"]) == ROUNDING
+    assert json.loads(lines["LOST"]) == LOST
     assert json.loads(lines["RESULT_UNITS"])["share"]["metric"] == ["%", 0.01]
 
 
@@ -200,13 +201,23 @@ def test_what_is_exactly_zero_in_free_rolling_is_shown_as_zero():
 
 
 def test_the_smallest_losses_that_are_meant_are_shown():
+    """They are far below load times speed, and a seventh of their errors."""
     slow = rn.StandardLinearSolid(modulus=2, stiffening=0.2, relaxation_time=0.003, poisson=0.45)
     roller = rn.Roller(radius=50, layers=[rn.Layer(2.0, slow)])
-    solution = rolling_freely(upper=roller, speed=1e-3)
-    for key in ("dissipation.viscous", "rolling_resistance", "torque_upper"):
+    solution = rolling_freely(upper=roller, speed=1e-2)
+    for key in ("dissipation.viscous", "rolling_resistance"):
         value = FIGURES[key].value(solution)
         assert value is not None
         assert FIGURES[key].cleaned(solution) == value != 0.0
+
+
+def test_what_is_far_less_than_its_own_error_is_shown_as_zero(solution):
+    """The page and the summary have one rule: less than a twentieth of the error is nothing."""
+    creepage = FIGURES["creepage"]
+    for share, shown in ((0.04, 0.0), (-0.04, 0.0), (0.06, 0.06), (-0.06, -0.06)):
+        changed = replace(solution, creepage=share * 1e-3, error={"creepage": 1e-3})
+        assert creepage.cleaned(changed) == pytest.approx(shown * 1e-3)
+        assert creepage.value(changed) == share * 1e-3  # files keep it
 
 
 def test_long_times_are_shown_in_minutes():

@@ -38,10 +38,30 @@ def test_a_wrong_keyword_is_told_the_right_one(attempt, said):
         (lambda: rn.LineLoad("1.78 kN/m"), "a number in N/mm: 1.78"),
         (lambda: rn.Elastic(modulus="130 psi", poisson=0.5), "a number in MPa: 0.896"),
         (lambda: rn.Creepage("2 %"), "a plain number: 0.02"),
-        (lambda: rn.Layer("thick", RUBBER), "got 'thick'"),
+        (lambda: rn.Layer("thick", RUBBER), "got the text 'thick'; give a number."),
     ],
 )
 def test_a_text_with_a_unit_is_told_the_number(attempt, said):
+    with pytest.raises(rn.InvalidInputError) as caught:
+        attempt()
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("attempt", "said"),
+    [
+        (lambda: rn.Elastic(0.91), "Elastic(modulus=..., poisson=...), got 1 without a name."),
+        (lambda: rn.Roller(50, [rn.Layer(2.0, RUBBER)]), "as in Roller(radius=...), got 2"),
+        (lambda: rn.Nip(RUBBER), "as in Nip(upper=..., lower=..., normal=...)"),
+        (lambda: rn.Model("curved"), "as in Model(geometry=...)"),
+        (lambda: rn.Sheet(0.1), "as in Sheet(thickness=..., modulus=...)"),
+        (lambda: rn.Face(1600), "as in Face(length=...)"),
+        (lambda: rn.Shaft(1800), "as in Shaft(bearing_distance=...)"),
+        (lambda: rn.Thermal(0.2), "as in Thermal(conductivity=..., density=..., heat_capacity"),
+        (lambda: rn.Profile([0, 1], [0, 0]), "as in Profile(x=..., height=...), got 2"),
+    ],
+)
+def test_a_value_without_its_name_is_told_to_have_one(attempt, said):
     with pytest.raises(rn.InvalidInputError) as caught:
         attempt()
     assert said in str(caught.value)

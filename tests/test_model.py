@@ -49,5 +49,5 @@ def test_frozen():
 
 
 def test_keywords_only():
-    with pytest.raises(TypeError):
+    with pytest.raises(InvalidInputError, match="must be given by name"):
         Model("linear")

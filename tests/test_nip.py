@@ -20,6 +20,7 @@ from rollnip import (
     Torque,
     Traction,
 )
+from rollnip._errors import shown
 
 RUBBER = Elastic(modulus=2.0, poisson=0.5)
 BLACK = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
@@ -43,7 +44,7 @@ NOT_FINITE = [nan, inf, -inf, "0", None, False]
 @pytest.mark.parametrize("value", NOT_POSITIVE)
 @pytest.mark.parametrize(("kind", "name"), [(LineLoad, "load"), (Approach, "approach")])
 def test_positive_controls(kind, name, value):
-    assert refusal(kind, value) == f"`{name}` must be positive and finite, got {value!r}."
+    assert refusal(kind, value) == f"`{name}` must be positive and finite, got {shown(value)}."
 
 
 @pytest.mark.parametrize("value", NOT_FINITE)
@@ -52,7 +53,7 @@ def test_positive_controls(kind, name, value):
     [(Traction, "traction"), (Creepage, "creepage"), (Torque, "torque_lower")],
 )
 def test_finite_controls(kind, name, value):
-    assert refusal(kind, value) == f"`{name}` must be a finite number, got {value!r}."
+    assert refusal(kind, value) == f"`{name}` must be a finite number, got {shown(value)}."
 
 
 @pytest.mark.parametrize(("kind", "name"), [(LineLoad, "load"), (Approach, "approach")])
@@ -112,7 +113,7 @@ def test_speed_and_face_width_are_not_absurd(name, largest, said):
 @pytest.mark.parametrize("friction", [-0.1, nan, inf, "0.3", None])
 def test_friction(friction):
     assert refusal(replace, GOOD, friction=friction) == (
-        f"`friction` must be zero or positive and finite, got {friction!r}."
+        f"`friction` must be zero or positive and finite, got {shown(friction)}."
     )
 
 
@@ -120,7 +121,7 @@ def test_friction(friction):
 @pytest.mark.parametrize("value", [0.0, -3.0, nan, inf, "fast"])
 def test_speed_and_face_width(name, value):
     message = refusal(replace, GOOD, **{name: value})
-    assert message == f"`{name}` must be positive and finite, got {value!r}."
+    assert message == f"`{name}` must be positive and finite, got {shown(value)}."
 
 
 @pytest.mark.parametrize(
@@ -196,7 +197,7 @@ def test_approach_beyond_a_radius(approach):
 
 
 def test_keywords_only():
-    with pytest.raises(TypeError):
+    with pytest.raises(InvalidInputError, match="must be given by name"):
         Nip(COATED, BARE, LineLoad(1.0), 0.5)
 
 

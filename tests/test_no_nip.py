@@ -129,18 +129,24 @@ def test_a_covering_pressed_in_by_its_thickness_is_refused_at_once(geometry, thi
     assert solution.solver.elements < 100
 
 
-def test_finite_strain_refuses_what_it_presses_in_by_more_than_half():
-    """By 57 %: 88 % in `curved`, which is no start that says so."""
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
+    """By 52 %: 76 % in `curved`, which is no start that says so, as 65 % under 20 N/mm is none."""
     foam = rn.Elastic(modulus=3.0, poisson=0.3)
-    covered = rn.Roller(radius=50.0, layers=[rn.Layer(0.1, foam)])
+    covered = rn.Roller(radius=50.0, layers=[rn.Layer(1.0, foam)])
     nip = rn.Nip(
-        upper=covered, lower=rn.Roller(radius=50.0), normal=rn.LineLoad(10.0), friction=0.3
+        upper=covered, lower=rn.Roller(radius=50.0), normal=rn.LineLoad(25.0), friction=friction
     )
     solution = rn.solve(nip, rn.Model(geometry="finite"))
     assert not solution.converged
     assert solution.model.geometry == "finite"
-    assert "is pressed in by 57 %" in solution.status
+    assert "is pressed in by 52 %" in solution.status
     assert solution.solver.elements < 100
+    if not friction:
+        lighter = replace(nip, normal=rn.LineLoad(20.0))
+        assert rn.solve(lighter, rn.Model(geometry="finite")).converged
+        start = rn.solve(lighter, rn.Model(geometry="curved"))
+        assert "is pressed in by 65 %" in start.status
 
 
 def _with_layers(layers, load):

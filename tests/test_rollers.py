@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rollnip import Elastic, InvalidInputError, Layer, Profile, Roller, StandardLinearSolid
+from rollnip._errors import shown
 
 RUBBER = Elastic(modulus=2.0, poisson=0.5)
 BLACK = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
@@ -22,7 +23,7 @@ def refusal(call, *arguments, **keywords):
 @pytest.mark.parametrize("thickness", [0.0, -1, nan, inf, "2 reeds", None, True, [1.0]])
 def test_thickness_is_positive(thickness):
     assert refusal(Layer, thickness, RUBBER) == (
-        f"`thickness` must be positive and finite, got {thickness!r}."
+        f"`thickness` must be positive and finite, got {shown(thickness)}."
     )
 
 
@@ -43,7 +44,7 @@ def test_a_layer_is_of_a_material(material):
 @pytest.mark.parametrize("radius", [0.0, -5.0, nan, -inf, "50 reeds", None, False])
 def test_radius_is_positive(radius):
     assert refusal(Roller, radius=radius) == (
-        f"`radius` must be positive and finite, got {radius!r}."
+        f"`radius` must be positive and finite, got {shown(radius)}."
     )
 
 

@@ -2,7 +2,8 @@
 
 Units: mm, N, MPa, s. Two rollers, upper and lower; x points to the leading edge (inlet);
 traction and creepage are positive where the upper roller drives. Names are loaded when first
-asked for, so that the command line starts without the numerics.
+asked for, so that the command line starts without the numerics. So are the packages for studies
+and pictures: `rn.plots.plot_overview(solution)` needs no further import.
 """
 
 from __future__ import annotations
@@ -122,6 +123,23 @@ _HOMES = {
     "rollnip.solver": ("solve",),
     "rollnip.sweeps": ("sweep",),
 }
+_PACKAGES = (
+    "closed_forms",
+    "design",
+    "dma",
+    "face",
+    "heat",
+    "identification",
+    "interior",
+    "io",
+    "lda",
+    "materials",
+    "patch",
+    "plots",
+    "rubber",
+    "sheet",
+    "sweeps",
+)
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
@@ -195,6 +213,8 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         return version("rollnip")
+    if name in _PACKAGES:
+        return import_module(f"rollnip.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'rollnip' has no attribute {name!r}")
     value = getattr(import_module(_HOME[name]), name)
@@ -203,4 +223,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted([*__all__, *_PACKAGES])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
-from inspect import signature
+from inspect import Parameter, signature
 from math import inf, nan
 from typing import Any, TypeVar, get_args
 
@@ -100,10 +100,8 @@ def require_instance(name: str, value: object, kind: type, hint: str = "") -> No
 
 
 def shown(value: object) -> str:
-    """Write a value for a message; a text that holds a quantity with the number to write."""
-    if not isinstance(value, str) or not any(
-        letter.isalpha() or letter in "%'\"" for letter in value
-    ):
+    """Write a value for a message; a text with the number to write instead, where it has one."""
+    if not isinstance(value, str):
         return repr(value)
     from rollnip._units import Dimension, base_unit, parse_quantity  # it needs this module
 
@@ -115,11 +113,13 @@ def shown(value: object) -> str:
         unit = base_unit(dimension)
         plain = f"a number in {unit}" if unit else "a plain number"
         return f"the text {value!r}; in Python give {plain}: {number!r}"
-    return repr(value)
+    return f"the text {value!r}; give a number"
 
 
 def with_hints(**hints: str) -> Callable[[type[T]], type[T]]:
     """Let a class answer an unknown keyword with a sentence instead of a TypeError.
+
+    So it answers a value without a keyword, where all have to have one.
 
     Parameters
     ----------
@@ -130,13 +130,17 @@ def with_hints(**hints: str) -> Callable[[type[T]], type[T]]:
 
     def decorate(cls: type[T]) -> type[T]:
         build = cls.__init__
-        known = tuple(signature(build).parameters)[1:]
+        parameters = tuple(signature(build).parameters.values())[1:]
+        known = tuple(one.name for one in parameters)
+        by_name_only = all(one.kind is Parameter.KEYWORD_ONLY for one in parameters)
 
         @wraps(build)
         def checked(self: T, /, *values: Any, **named: Any) -> None:
             for name in named:
                 if name not in known:
                     raise InvalidInputError(_unknown(cls.__name__, name, known, hints))
+            if values and by_name_only:
+                raise InvalidInputError(_unnamed(cls.__name__, parameters, len(values)))
             build(self, *values, **named)
 
         cls.__init__ = checked  # type: ignore[method-assign, assignment]
@@ -153,6 +157,15 @@ def _unknown(kind: str, name: str, known: Sequence[str], hints: Mapping[str, str
         f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}."
     )
     return f"`{name}` must be a parameter of {kind}, and is none; {hint}"
+
+
+def _unnamed(kind: str, parameters: Sequence[Parameter], count: int) -> str:
+    needed = [one.name for one in parameters if one.default is Parameter.empty]
+    written = ", ".join(f"{name}=..." for name in needed or [parameters[0].name])
+    return (
+        f"Values of {kind} must be given by name, as in {kind}({written}), "
+        f"got {count} without a name."
+    )
 
 
 def _with_article(name: str) -> str:

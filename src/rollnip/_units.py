@@ -271,7 +271,8 @@ def _read(value: str, dimension: Dimension) -> float:
         raise _refusal(dimension, value[:20] + "...", f"it is longer than {_LONGEST} characters")
     match = _QUANTITY.fullmatch(value.translate(_MINUS))
     if match is None:
-        raise _refusal(dimension, value, "no number with a unit can be read from it")
+        sought = "no number with a unit" if base_unit(dimension) else "no number"
+        raise _refusal(dimension, value, f"{sought} can be read from it")
     sign, digits, exponent, written = match.groups()
     scale, offset = _unit(_spelled(written), written, value, dimension)
     number = _number(sign, digits, exponent or "", value, dimension)
@@ -363,8 +364,7 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if unit in kind.units:
         return kind.units[unit]
     if not unit:
-        why = f"the unit is missing (a number without quotes in a file is in {kind.base})"
-        raise _refusal(dimension, value, why)
+        raise _refusal(dimension, value, f'it has no unit, as in "{value.strip()} {kind.base}"')
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
     if unit in _REFUSED:

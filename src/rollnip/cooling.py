@@ -60,6 +60,7 @@ class Coolant:
 Core = Insulated | Held | Coolant
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shell:
     """The wall of the core under the coverings, through which heat passes to the inside.
@@ -124,6 +125,7 @@ class Cooling:
         return self.film == 0.0 and isinstance(self.core, Insulated)
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PassingSheet:
     """A sheet that runs through the nip and takes heat along.

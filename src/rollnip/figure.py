@@ -18,6 +18,7 @@ from rollnip._units import conversions, format_quantity
 
 __all__ = [
     "LARGE",
+    "LOST",
     "ROUNDING",
     "US",
     "US_NAMES",
@@ -72,6 +73,13 @@ ROUNDING = 5e-9
 In free rolling, torques, traction and friction losses are exactly 0, and the computed values are at
 most 4e-13 of their size. The smallest figures that are results (losses of a viscoelastic covering
 at low speed) are 1e-8 of their size and more.
+"""
+
+
+LOST = 0.05
+"""Share of its own estimated error below which nothing is left of a figure: readers see 0.
+
+An error is written with two digits, so such a figure is less than half of its last.
 """
 
 
@@ -279,9 +287,12 @@ class Figure:
         return None if found is None else [_finite(one) for one in found.tolist()]
 
     def cleaned(self, solution: Any) -> float | None:
-        """Return the value of the figure, or 0 where it is a rounding error."""
+        """Return the value of the figure, or 0 where it is nothing but rounding or error."""
         value = self.value(solution)
-        return value if value is None or abs(value) > self.noise(solution) else 0.0
+        if value is None:
+            return None
+        error = self.error(solution) or 0.0
+        return value if abs(value) > max(self.noise(solution), LOST * error) else 0.0
 
     def noise(self, result: Any) -> float:
         """Return the size below which the figure is a rounding error, in its base unit.

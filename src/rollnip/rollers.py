@@ -62,6 +62,7 @@ class Layer:
         _require_material("material", self.material)
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
 class Profile:
     """Measured height of a surface over the smooth roller, along the nip at one instant.

@@ -15,6 +15,7 @@ from rollnip._errors import (
     require_finite,
     require_not_negative,
     require_positive,
+    with_hints,
 )
 from rollnip.crowns import CoveringTable, Crown, CrownTable
 
@@ -64,6 +65,7 @@ class JournalStep:
             object.__setattr__(self, "length", require_positive("length", self.length))
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shaft:
     """Shaft of a roller: a core over the face, journals to two bearings.
@@ -194,6 +196,7 @@ class PivotArm:
         return sum(force * lever for force, lever in self.forces) / self.bearing_lever
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Face:
     """A nip along its rollers.

@@ -209,3 +209,21 @@ def test_on_a_phone_the_alarm_stands_clear_of_the_header(browser, base):
     )
     assert seen
     context.close()
+
+
+def test_on_a_phone_the_stresses_on_bonds_are_read_without_scrolling(browser, base):
+    """Half of the largest pull, and the end of the heading, lay outside."""
+    foam = {"model": "elastic", "modulus": 0.05, "poisson": 0.1}
+    roller = {"radius": 8, "layers": [{"thickness": 4, "material": foam}]}
+    nip = {"load": 0.05, "friction": 0.5, "speed": 1000}
+    case = {"title": "", "nip": nip, "upper": roller, "lower": roller}
+    context = new_context(browser, viewport={"width": 390, "height": 844})
+    page = context.new_page()
+    designer = Designer(page, base).open(fragment({"case": case}))
+    designer.tab("inside")
+    page.wait_for_selector("#bonds")
+    beyond = page.locator("#bonds").evaluate(
+        "table => table.parentElement.scrollWidth - table.parentElement.clientWidth"
+    )
+    assert beyond == 0
+    context.close()

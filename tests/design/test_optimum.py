@@ -172,7 +172,7 @@ def test_cases_that_fail_are_avoided_and_said(coated, stand_in):
 
 def test_nothing_but_failures_is_an_error(coated, stand_in):
     evaluate = stand_in({"peak_pressure": bowl}, refused=lambda *_: True)
-    with pytest.raises(InvalidInputError, match=r"not one of .* cases could be solved; .*Too much"):
+    with pytest.raises(InvalidInputError, match=r"Not one of .* cases could be solved; .*Too much"):
         optimise(coated, [LOAD], Minimise("peak_pressure"), evaluate=evaluate)
     with pytest.raises(InvalidInputError, match="`creepage` is not defined there"):
         optimise(coated, [LOAD], Minimise("creepage"), evaluate=stand_in({}))

@@ -16,7 +16,7 @@ from rollnip.design import (
     optimise,
     tolerance,
 )
-from rollnip.design.report import optimum_report, plot_tolerance, tolerance_report
+from rollnip.design.report import optimum_report, plot_tolerance, result_lines, tolerance_report
 from rollnip.plots import save_figure
 from rollnip.sweeps import Table
 
@@ -108,3 +108,16 @@ def test_an_optimum_in_words(coated, stand_in):
     assert "as good within 1 %" in text
     assert "traction            0 N/mm" in text
     assert f"{found.solves} cases tried; 0 could not be solved." in text
+
+
+@pytest.mark.parametrize(
+    ("traction", "error", "said"),
+    [
+        (3e-17, 1.2e-17, "0 N/mm"),  # rounding, and so is its error
+        (1e-5, 1e-3, "0 N/mm ± 0.0010"),  # far less than its error
+        (0.1, 1e-3, "0.10000 N/mm ± 0.0010"),
+    ],
+)
+def test_a_result_is_written_as_in_the_summary_of_a_nip(traction, error, said):
+    row = {"load": 2.0, "traction": traction, "error.traction": error}
+    assert result_lines(row)[-1].split("traction")[1].strip() == said

@@ -39,6 +39,19 @@ def test_what_is_written_is_read_again(deck, to, unit):
     assert found.notes == ()
 
 
+@pytest.mark.parametrize("to", ["abaqus", "ansys", "pyvisco"])
+def test_round_numbers_stay_round(deck, to):
+    """Moduli come back as they were written by a person, not as 0.09999999999999998."""
+    terms = ((0.1, 1e-3), (0.3, 0.01), (0.7, 0.2), (1.1, 3.0))
+    solid = rn.Prony(modulus=0.7, terms=terms, poisson=0.48)
+    text = prony_deck(solid, to)
+    found = read_deck(deck(text), unit=None if to == "pyvisco" else "MPa", poisson=0.48).material
+    assert (found.modulus, found.terms) == (solid.modulus, solid.terms)
+    numbers = "0.1, 0.1, 0.001\n0.3, 0.3, 0.1\n"
+    abaqus = f"*ELASTIC, MODULI=INSTANTANEOUS\n1.7, 0.48\n*VISCOELASTIC, TIME=PRONY\n{numbers}"
+    assert "EX,1,1.7 " in prony_deck(read_deck(deck(abaqus), unit="MPa").material, "ansys")
+
+
 def test_abaqus_by_hand(deck):
     # E_0 = 8 MPa, g = .5 and .25: E_inf = 2 MPa, E_i = 4 and 2 MPa
     text = (

@@ -208,8 +208,13 @@ def test_the_shop_formula_is_shown_beside(straight):
 @pytest.mark.parametrize(
     ("impression", "unknowns", "sentence"),
     [
-        (Impression([0.0], [5.0], 0.1), ("crown", "tilt"), "need as many widths"),
-        (Impression([0.0, 900.0], [5.0, 5.0], 0.1), ("crown",), "must lie on the face"),
+        (
+            Impression([0.0], [5.0], 0.1),
+            ("crown", "tilt"),
+            "as there are unknowns, 2, got 1",
+        ),
+        (Impression([0.0, 900.0], [5.0, 5.0], 0.1), ("crown",), "within 800 mm .*, got 900 mm"),
+        (Impression([0.0, -801.0], [5.0, 5.0], 0.1), ("crown",), "must lie on the face, .* -801"),
         (Impression([0.0, 100.0], [5.0, 5.0], 0.1), ("hardness",), "must be among"),
     ],
 )

@@ -254,10 +254,24 @@ def test_a_bar_tells_how_many_cross_sections_are_solved(monkeypatch):
     assert "40/40" in out.getvalue()
 
 
+@pytest.mark.parametrize(
+    ("within", "said"),
+    [
+        ("10", "--within: `within` must lie between 0 and 1, got 10.0."),
+        ("1 mm", "--within: must be a plain number"),
+    ],
+)
+def test_a_share_that_is_none_is_refused_before_anything_is_solved(smooth, within, said):
+    result = run("face", "crown", smooth, "--within", within)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert said in result.stderr
+
+
 def test_face_crown(smooth):
-    result = run("face", "crown", smooth, "--json")
+    result = run("face", "crown", smooth, "--json", "--within", "10 %")
     assert result.exit_code == 0, result.output
     tree = json.loads(result.stdout)
+    assert tree["loads"]["within"] == 0.1
     assert 0.4 < tree["height"] < 0.55
     assert tree["loads"]["low"] < 6.0 < tree["loads"]["high"]
 
@@ -286,6 +300,29 @@ def test_a_scatter_with_a_wrong_unit_is_named_by_its_option(tmp_path, smooth):
     result = run("face", "read", smooth, widths, "--scatter", "0.15 MPa")
     assert result.exit_code == 2
     assert result.output.startswith("rollnip: --scatter: must be a length")
+
+
+@pytest.mark.parametrize(
+    ("rows", "options", "said"),
+    [
+        ("0,14\n900,13\n", (), "widths.csv: `y` must lie on the face, within 800 mm"),
+        ("0,14\n900,13\n", (), "its length is 1600 mm), got 900 mm."),
+        ("0,14\n-500,-13\n", (), "widths.csv: `width` must be positive and finite everywhere, "),
+        ("0,14\n-500,-13\n", (), "got -13 mm at y = -500 mm."),
+        ("0,14\n", (), "widths.csv: `width` must have as many values as there are unknowns, 2,"),
+        ("0,14\n9,13\n", ("--unknown", "hardness"), "--unknown: `unknowns` must be among load,"),
+        ("0,14\n9,13\n", ("--scatter", "0 mm"), "--scatter: `scatter` must be positive"),
+        ("0,14\n-70,350\n", (), "widths.csv: `end_loads` must press between the ends of the"),
+        ("-70,350\n0,14\n70,350\n", (), "widths.csv: `crown` must be small against the diameter"),
+    ],
+)
+def test_a_wrong_value_of_an_impression_is_named_with_its_file(
+    tmp_path, smooth, rows, options, said
+):
+    (tmp_path / "widths.csv").write_text("y [mm],width [mm]\n" + rows, "utf-8")
+    found = run("face", "read", smooth, tmp_path / "widths.csv", *options)
+    assert (found.exit_code, found.stdout) == (2, "")
+    assert said in found.stderr
 
 
 def test_a_large_error_of_the_shop_formula_has_no_exponent():
@@ -317,8 +354,11 @@ def test_the_picture_names_its_axes(straight, style):
         "nip width [mm]",
         "line load [N/mm]",
         "traction [N/mm]",
-        "more than at the ends [mm]",
+        "minus ends [mm]",
     ]
+    figure.canvas.draw()
+    for ax in figure.axes:  # a longer one runs into the picture above
+        assert ax.yaxis.label.get_window_extent().height <= ax.get_window_extent().height
     (mean,) = figure.axes[1].get_legend().get_texts()
     assert mean.get_text() == "mean"
 

@@ -121,7 +121,7 @@ def test_what_an_impression_needs(tmp_path):
     with pytest.raises(rn.InvalidInputError, match="`y` must hold one place for each of the 2"):
         Impressions(y=[0.0], measured=[13.0, 14.0])
     outside = Impressions(y=[0.0, 900.0], measured=[13.0, 14.0], standard_error=0.1)
-    with pytest.raises(rn.InvalidInputError, match="`y` must lie on the face, within 800 mm"):
+    with pytest.raises(rn.InvalidInputError, match=r"`y` must lie on the face, .* got 900 mm"):
         rn.identify(tree_of(), [CROWNED], outside, QUICK)
     inside = replace(outside, y=[0.0, 700.0])
     with pytest.raises(rn.InvalidInputError, match=r"must have a table \[face\]"):

@@ -124,6 +124,18 @@ def test_no_module_has_the_name_of_something_beside_it(name):
     assert not modules & set(getattr(door, "__all__", ()))
 
 
+@pytest.mark.parametrize("name", ["plots", "identification", "io"])
+def test_packages_need_no_import_of_their_own(name):
+    loaded_after(f"import rollnip as rn\nassert rn.{name}.__all__")
+    assert name in dir(rn)
+
+
+def test_the_command_needs_no_place_on_the_path():
+    command = [sys.executable, "-m", "rollnip", "--version"]
+    done = subprocess.run(command, capture_output=True, check=True, text=True)
+    assert done.stdout == f"rollnip {rn.__version__}\n"
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="has no attribute 'Nipp'"):
         _ = rn.Nipp

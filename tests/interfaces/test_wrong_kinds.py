@@ -40,6 +40,21 @@ def test_what_is_no_solution_is_not_written(tmp_path, write, wanted, given, wron
 @pytest.mark.parametrize(
     ("call", "said"),
     [
+        (lambda: rn.read_case({"nip": {}}), "got dict; `rollnip.io.parse_case` takes a tree."),
+        (lambda: rn.read_case(3), "`path` must be the name of a file, got int."),
+        (lambda: rn.sweep(3), "`path` must be the name of a file, got int."),
+        (lambda: rn.read_patch_case(None), "`path` must be the name of a file, got NoneType."),
+    ],
+)
+def test_what_is_no_file_is_not_read(call, said):
+    with pytest.raises(rn.InvalidInputError) as caught:
+        call()
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
         (lambda: rn.solve_face(3, rn.Face(length=100.0)), "`nip` must be a Nip, got an int."),
         (lambda: rn.solve_face(NIP, 3), "`face` must be a Face, got an int."),
         (lambda: rn.solve_face(NIP, rn.Face(length=1.0), 3), "`model` must be a Model, got an int"),

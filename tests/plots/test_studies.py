@@ -32,8 +32,17 @@ def test_a_map_has_the_values_where_they_belong():
     assert legend_texts(ax) == ["width [mm] = 8"]
     wanted = ax.collections[-1].get_paths()[0].vertices
     np.testing.assert_allclose(wanted.sum(axis=1), 8.0)
-    assert ax.texts
-    assert not any(text.get_clip_on() for text in ax.texts)  # at the edge they were cut off
+
+
+def test_values_of_contours_stand_on_them_and_not_over_the_frame():
+    """Steps of a half for x + y from 2 to 16: the contours in two corners are short."""
+    ax = plot_map(X, Y, FIELD)
+    assert len(ax.texts) >= 6
+    for text in ax.texts:
+        x, y = text.get_position()
+        assert x + y == pytest.approx(float(text.get_text()), abs=0.02)
+        for share in ((x - X[0]) / (X[-1] - X[0]), (y - Y[0]) / (Y[-1] - Y[0])):
+            assert 0.05 < share < 0.95
 
 
 def test_a_map_leaves_out_what_is_not_there_and_says_what_is_not_reached():

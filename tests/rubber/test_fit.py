@@ -173,6 +173,7 @@ def test_the_picture_shows_measurements_and_curves(style, faint_words):
     assert faint_words(figure) == []
     stress, deviation = figure.axes
     assert [text.get_text() for text in stress.get_legend().get_texts()] == ["tension", "shear"]
+    assert stress.get_legend().get_title().get_text() == "curves: yeoh"
     assert len(stress.lines) == 4
     assert deviation.get_ylabel().startswith("deviation")
 

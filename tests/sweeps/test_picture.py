@@ -56,7 +56,7 @@ def test_more_make_clouds(case: dict[str, Any], tmp_path: Path) -> None:
 
 
 def test_nothing_to_draw_is_said(case: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(InvalidInputError, match="no parameter that is a number changes"):
+    with pytest.raises(InvalidInputError, match="No parameter that is a number changes"):
         drawn(case, tmp_path, {"path": "model.geometry", "values": ["linear", "curved"]})
     (tmp_path / "a.db").unlink()
     drawn(case, tmp_path, {"path": "nip.load", "values": [1.0, -1.0, -2.0]})
@@ -65,6 +65,6 @@ def test_nothing_to_draw_is_said(case: dict[str, Any], tmp_path: Path) -> None:
     base.close()
     with (
         Store(tmp_path / "a.db") as store,
-        pytest.raises(InvalidInputError, match="no case was solved"),
+        pytest.raises(InvalidInputError, match="No case was solved"),
     ):
         plot_sweep(store)

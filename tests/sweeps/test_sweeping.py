@@ -148,7 +148,7 @@ def test_an_executor_that_breaks_is_said(tree: dict[str, Any]) -> None:
         def submit(self, *_: Any, **__: Any) -> Any:
             raise BrokenProcessPool("gone")
 
-    with pytest.raises(RollnipError, match="the executor broke; what was finished is kept"):
+    with pytest.raises(RollnipError, match="The executor broke; what was finished is kept"):
         solved_by(Given(Dead(1), 1), tree)
 
 

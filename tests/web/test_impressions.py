@@ -52,7 +52,7 @@ def test_what_cannot_be_read_is_told():
         read_impression(parse_case(CASE), body([10.0, 11.0]))
     one = {"y": [0.0], "width": [12.0]}
     asked = ImpressionBody(case=CASE, impressions=[one]).model_dump()
-    with pytest.raises(CaseFileError, match="2 unknowns need as many widths"):
+    with pytest.raises(CaseFileError, match="as many values as there are unknowns, 2, got 1"):
         read_impression(parse_case(CASE), asked)
     bare = {name: part for name, part in CASE.items() if name != "face"}
     with pytest.raises(CaseFileError, match="face: is missing"):

@@ -188,7 +188,7 @@ def test_a_port_in_use_is_one_sentence():
     assert result.exit_code == 2
     assert result.stdout == ""
     assert result.stderr == (
-        f"rollnip: cannot serve at 127.0.0.1, port {port}: Address already in use; "
+        f"rollnip: Cannot serve at 127.0.0.1, port {port}: Address already in use; "
         "choose another with --port or --host.\n"
     )
 
@@ -205,7 +205,7 @@ def test_an_address_that_cannot_be_bound_is_one_sentence(host, monkeypatch):
     from rollnip.web import server
 
     monkeypatch.setattr(server.uvicorn.Server, "run", lambda *_, **__: pytest.fail("it serves"))
-    with pytest.raises(RollnipError, match=r"^(cannot serve at .*|`--host` must be .*)\.$"):
+    with pytest.raises(RollnipError, match=r"^(Cannot serve at .*|`--host` must be .*)\.$"):
         web.serve(host=host, port=0, open_page=False)
 
 

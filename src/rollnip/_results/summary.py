@@ -39,7 +39,7 @@ class Line(NamedTuple):
 
 
 def line(figure: Figure, solution: Any) -> Line:
-    """Return the line of one figure, with 0 where the figure is a rounding error."""
+    """Return the line of one figure, with 0 where it is nothing but rounding or error."""
     value = figure.cleaned(solution)
     if value is None:
         return Line(figure.label, "-", note=figure.undefined or "not defined")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO, cast
@@ -68,6 +68,22 @@ def named(source: str) -> Iterator[None]:
         yield
     except InvalidInputError as error:
         raise InvalidInputError(f"{source}: {error}") from None
+
+
+@contextmanager
+def named_by(sources: Mapping[str, str], otherwise: str) -> Iterator[None]:
+    """Prefix an input error raised inside the block with the source of the value it is about.
+
+    Parameters
+    ----------
+    sources : option or file of each value, by the name with which a message begins.
+    otherwise : source of all others.
+    """
+    try:
+        yield
+    except InvalidInputError as error:
+        name = str(error).partition("` ")[0].removeprefix("`")
+        raise InvalidInputError(f"{sources.get(name, otherwise)}: {error}") from None
 
 
 def overridden(model: Model, geometry: str | None, tolerance: str | None) -> Model:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,7 +13,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, look_at, named
+from rollnip.cli.console import clear_failures, look_at, named, named_by
 from rollnip.cli.kept import evaluating
 from rollnip.cli.options import WORKERS, Force, Geometry
 
@@ -29,6 +28,13 @@ _DATABASE = typer.Option(
     help="Database, name.db, of the finished cases; the same command resumes from it."
 )
 _CASE_OUT = typer.Option(help="Write the case found: name.toml or name.json.")
+_FIND_OPTIONS = {
+    "wanted": "--for",
+    "quantity": "--for",
+    "points": "--points",
+    "low": "--between",
+    "high": "--between",
+}
 
 
 def find(
@@ -75,7 +81,7 @@ def find(
         run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
-        with _option_named(case), evaluating(database, tree, [path], 1) as crew:
+        with named_by(_FIND_OPTIONS, case), evaluating(database, tree, [path], 1) as crew:
             found = search(
                 tree,
                 path,
@@ -260,18 +266,6 @@ def pareto(
         sys.stdout.flush()
 
 
-@contextmanager
-def _option_named(case: str) -> Iterator[None]:
-    """Prefix an input error raised inside the block with its option, else with the case file."""
-    options = {"wanted": "--for", "quantity": "--for", "points": "--points"}
-    options |= dict.fromkeys(("low", "high"), "--between")
-    try:
-        yield
-    except InvalidInputError as error:
-        name = str(error).partition("` ")[0].removeprefix("`")
-        raise InvalidInputError(f"{options.get(name, case)}: {error}") from None
-
-
 def _solved(study: Study, *, database: Path | None, workers: int | None) -> Table:
     """All cases of a study; what a database holds is not solved again."""
     from rollnip.cli.sweep import solve_open
@@ -343,9 +337,9 @@ def _write_case(
 
 
 def _json(tree: Any) -> str:
-    from json import dumps
+    from rollnip._json import json_text
 
-    return dumps(tree, indent=2, allow_nan=False) + "\n"
+    return json_text(tree) + "\n"
 
 
 def _text(found: Found, limit: str) -> str:

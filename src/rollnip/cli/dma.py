@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip._json import json_text
 from rollnip.cli.console import clear_failures, named, read_option
 from rollnip.cli.dma_files import convert, show
 from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
@@ -139,7 +139,7 @@ def fit(
         _write(found, text, out, plot)
         if json:
             tree = fit_dict(found) | {"warnings": warnings}
-            sys.stdout.write(dumps(tree, indent=2, allow_nan=False) + "\n")
+            sys.stdout.write(json_text(tree) + "\n")
         elif out is None:
             sys.stdout.write(text)
         sys.stdout.flush()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip._json import json_text
 from rollnip.cli.console import clear_failures, read_option
 from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
@@ -37,7 +37,7 @@ def show(
             frequency=read_option("--frequency", frequency, "frequency"),
             sheet=sheet,
         )
-        text = dumps(reading.as_dict(), indent=2, allow_nan=False) + "\n"
+        text = json_text(reading.as_dict()) + "\n"
         sys.stdout.write(text if json else reading.text())
         sys.stdout.flush()
 

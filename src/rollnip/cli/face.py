@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named
+from rollnip.cli.console import clear_failures, named, named_by
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -78,11 +78,11 @@ def crown(
     case: CaseFile,
     roller: Crowned = "upper",
     within: Annotated[
-        float,
+        str,
         typer.Option(
             help="Largest departure of the line load from its mean, as a share of the mean."
         ),
-    ] = 0.1,
+    ] = "10 %",
     json: Json = False,
     plot: Plot = None,
     force: Force = False,
@@ -94,15 +94,20 @@ def crown(
     with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
+        from rollnip._units import parse_quantity
         from rollnip.face import even_crown, load_range, plain_wall, with_crown
+        from rollnip.face.design import require_share
         from rollnip.shafts import Crown
 
         name = _roller(roller)
+        with named("--within"):
+            share = parse_quantity(within, "ratio")
+            require_share(share)
         best = even_crown(nip, along, model, roller=name)
         crowned = with_crown(nip, name, Crown(best.height))
         law = best.solution.law
-        loads = load_range(_at_mean(crowned, along), along, model, within=within, law=law)
-        wall = plain_wall(nip, along, model, within=within, roller=name, law=law)
+        loads = load_range(_at_mean(crowned, along), along, model, within=share, law=law)
+        wall = plain_wall(nip, along, model, within=share, roller=name, law=law)
         _draw(best.solution, plot)
         _print(_crown_dict(best, loads, wall) if json else _crown_text(best, loads, wall))
 
@@ -138,21 +143,27 @@ def read(
         y, found = table.samples("y", "length"), table.samples("width", "length")
         with named("--scatter"):
             spread = parse_quantity(scatter, "length")
-        impressions = [Impression(y, found, spread)]
-        if "load" in table.names:
-            loads = table.samples("load", "line load")
-            impressions = [
-                Impression(y[loads == one], found[loads == one], spread, float(one))
-                for one in sorted(set(loads.tolist()))
-            ]
-        reading = read_impressions(
-            nip,
-            along,
-            impressions,
-            tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
-            model,
-            roller=_roller(roller),
-        )
+        side = _roller(roller)
+        # What is wrong with a crown or with end loads here is what the widths ask for: those of the
+        # case were checked when it was read.
+        sources = dict.fromkeys(("y", "width", "load", "crown", "end_loads"), widths)
+        sources |= {"scatter": "--scatter", "unknowns": "--unknown"}
+        with named_by(sources, case):
+            impressions = [Impression(y, found, spread)]
+            if "load" in table.names:
+                loads = table.samples("load", "line load")
+                impressions = [
+                    Impression(y[loads == one], found[loads == one], spread, float(one))
+                    for one in sorted(set(loads.tolist()))
+                ]
+            reading = read_impressions(
+                nip,
+                along,
+                impressions,
+                tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
+                model,
+                roller=side,
+            )
         _print(reading_dict(reading) if json else _reading_text(reading))
 
 
@@ -196,9 +207,9 @@ def _draw(solution: Any, plot: Path | None) -> None:
 
 
 def _print(what: dict[str, Any] | str) -> None:
-    from json import dumps
+    from rollnip._json import json_text
 
-    text = what if isinstance(what, str) else dumps(what, indent=2, allow_nan=False) + "\n"
+    text = what if isinstance(what, str) else json_text(what) + "\n"
     sys.stdout.write(text)
     sys.stdout.flush()
 

@@ -61,13 +61,13 @@ def feed(
 
 
 def _as_json(changes: tuple[FeedChange, ...]) -> str:
-    from json import dumps
+    from rollnip._json import json_text
 
     rows = [
         {name: None if _is_nan(value) else value for name, value in asdict(one).items()}
         for one in changes
     ]
-    return dumps(rows, indent=2)
+    return json_text(rows)
 
 
 def _is_nan(value: object) -> bool:

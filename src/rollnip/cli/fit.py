@@ -53,8 +53,8 @@ def fit(
     with clear_failures(), one_run(force=force) as run:
         look_at(file)
         from dataclasses import replace
-        from json import dumps
 
+        from rollnip._json import json_text
         from rollnip.identification import fit_dict, fit_report, identify, read_fit
 
         study = read_fit(file)
@@ -82,7 +82,7 @@ def fit(
         if out is not None:
             _write(found, study.title, out)
         if json:
-            sys.stdout.write(dumps(fit_dict(found), indent=2, allow_nan=False) + "\n")
+            sys.stdout.write(json_text(fit_dict(found)) + "\n")
         elif not quiet:
             sys.stdout.write(fit_report(found, study.title))
         sys.stdout.flush()
@@ -116,15 +116,15 @@ def _progress() -> Iterator[Callable[[int], None]]:
 
 def _write(found: Fit, title: str, folder: Path) -> None:
     from functools import partial
-    from json import dumps
 
     from rollnip._files import write_whole
+    from rollnip._json import json_text
     from rollnip.identification import fit_case, fit_dict, fit_report, plot_fit
     from rollnip.plots import save_figure
 
     texts = {
         "report.txt": fit_report(found, title),
-        "fit.json": dumps(fit_dict(found), indent=2, allow_nan=False) + "\n",
+        "fit.json": json_text(fit_dict(found)) + "\n",
         "case.toml": fit_case(found),
     }
     for name, text in texts.items():

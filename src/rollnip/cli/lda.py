@@ -336,9 +336,9 @@ def _profile_tree(profile: VelocityProfile, *, simulated: bool) -> dict[str, Any
 
 
 def _json(tree: dict[str, Any]) -> str:
-    from json import dumps
+    from rollnip._json import json_text
 
-    return dumps(tree, indent=2, allow_nan=False) + "\n"
+    return json_text(tree) + "\n"
 
 
 def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:

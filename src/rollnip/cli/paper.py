@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, cast
 
@@ -10,6 +9,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import make_folder, one_run
+from rollnip._json import json_text
 from rollnip.cli.console import clear_failures, write
 from rollnip.cli.options import Force
 
@@ -61,7 +61,7 @@ def figures(
             written.append(path)
         names = [str(path) for path in written]
         plain = "".join(f"{name}\n" for name in names)
-        write(f"{dumps({'files': names}, indent=2)}\n" if json else plain)
+        write(f"{json_text({'files': names})}\n" if json else plain)
 
 
 @paper.command()
@@ -86,7 +86,7 @@ def process(
         found = solve_by_process(nip, cast("Geometry", geometry), elements=elements)
         rows = _figures_of(found)
         if json:
-            write(f"{dumps({name: value for name, value, _ in rows}, indent=2)}\n")
+            write(f"{json_text({name: value for name, value, _ in rows})}\n")
         else:
             write(
                 "".join(

@@ -114,12 +114,11 @@ def answer(problem: PatchCase, wanted: Wanted) -> bool:
     if wanted.stresses is not None:
         _write_stresses(solution, wanted.stresses)
     if wanted.json or wanted.fields:
-        from json import dumps
-
+        from rollnip._json import json_text
         from rollnip.patch.report import patch_dict
 
         tree = patch_dict(solution, fields=wanted.fields)
-        write(dumps(tree, indent=None if wanted.fields else 2, allow_nan=False) + "\n")
+        write(json_text(tree, indent=None if wanted.fields else 2) + "\n")
     elif not wanted.quiet:
         from rollnip.patch.report import patch_lines
 
@@ -208,9 +207,9 @@ def stress(
             write_stress(solution, side, z, out)
         rows = stress_rows(solution.stress(side, z))
         if json:
-            from json import dumps
+            from rollnip._json import json_text
 
-            write(dumps({"roller": side, "depths": rows}, indent=2, allow_nan=False) + "\n")
+            write(json_text({"roller": side, "depths": rows}) + "\n")
         else:
             write("\n".join(stress_lines(solution.patch.title, side, rows)) + "\n")
     if not solution.converged:
@@ -262,9 +261,9 @@ def ends(
                 else face_end(upper, lower, given, radius)
             )
         if json:
-            from json import dumps
+            from rollnip._json import json_text
 
-            write(dumps(end_dict(found), indent=2, allow_nan=False) + "\n")
+            write(json_text(end_dict(found)) + "\n")
         else:
             write("\n".join(end_lines(found)) + "\n")
 

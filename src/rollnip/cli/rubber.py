@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip._json import json_text
 from rollnip.cli.console import clear_failures, read_option
 from rollnip.cli.options import Force
 
@@ -93,7 +93,7 @@ def fit(
         text = rubber_toml(found, name)
         _write(found, text, out, plot)
         if json:
-            sys.stdout.write(dumps(fit_dict(found), indent=2, allow_nan=False) + "\n")
+            sys.stdout.write(json_text(fit_dict(found)) + "\n")
         elif out is None:
             sys.stdout.write(text)
         sys.stdout.flush()

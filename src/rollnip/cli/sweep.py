@@ -231,8 +231,7 @@ def _finish(store: Store, files: tuple[Path, Path | None, Path | None], *, as_js
 
 def tally_json(store: Store, is_running: bool | None) -> str:
     """Return the number of cases by status as JSON, and whether a process writes them, if asked."""
-    from json import dumps
-
+    from rollnip._json import json_text
     from rollnip.sweeps.row import STATUSES
 
     tally, first = store.tally(), next(store.rows_not_solved(), None)
@@ -247,7 +246,7 @@ def tally_json(store: Store, is_running: bool | None) -> str:
     }
     if is_running is not None:
         tree["is_running"] = is_running
-    return dumps(tree, indent=2, allow_nan=False)
+    return json_text(tree)
 
 
 def _status_text(store: Store, is_running: bool) -> str:

@@ -55,12 +55,11 @@ def verify(
 
 
 def _text(outcomes: Sequence[VerificationResult], *, as_json: bool) -> str:
-    from json import dumps
-
+    from rollnip._json import json_text
     from rollnip.verification import document, markdown
 
     if as_json:
-        return dumps(document(outcomes), indent=2, allow_nan=False) + "\n"
+        return json_text(document(outcomes)) + "\n"
     return markdown(outcomes)
 
 

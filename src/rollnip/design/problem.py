@@ -150,7 +150,7 @@ class Problem:
             return
         first = trials[0]
         raise InvalidInputError(
-            f"not one of {len(trials)} cases could be solved; at "
+            f"Not one of {len(trials)} cases could be solved; at "
             f"{self.said(self.by_path(first))}: {first.fault}"
         )
 

@@ -12,7 +12,7 @@ from rollnip.design.aims import AtLeast, LimitKept
 from rollnip.design.optimum import Optimum
 from rollnip.design.quantities import QUANTITIES, result_error
 from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
-from rollnip.figure import axis_label
+from rollnip.figure import LOST, axis_label
 from rollnip.figures import FIGURES
 from rollnip.plots import plot_distribution, plot_shares
 from rollnip.plots.style import Style, page
@@ -182,9 +182,11 @@ def _limit(limit: LimitKept) -> str:
 def _with_error(row: Mapping[str, Any], name: str) -> str:
     value, error = float(row[name]), result_error(row, name) or 0.0
     figure = FIGURES.get(name)
-    if abs(value) <= (_ROUNDING * error if figure is None else figure.noise(row)):
+    noise = 0.0 if figure is None else figure.noise(row)
+    if abs(value) <= max(noise, LOST * error):
         value = 0.0
-    doubt = f" ± {format_quantity(error, digits=2)}" if error > _ROUNDING * abs(value) else ""
+    is_said = error > max(noise, _ROUNDING * abs(value))
+    doubt = f" ± {format_quantity(error, digits=2)}" if is_said else ""
     return f"{_shown(value, QUANTITIES[name])}{doubt}"
 
 

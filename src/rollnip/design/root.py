@@ -221,8 +221,8 @@ def _question(
     unit = base_unit(dimension)
     if not low < high:
         raise InvalidInputError(
-            f"`low` must be below `high`, got {format_quantity(low, unit)} and "
-            f"{format_quantity(high, unit)}."
+            f"`low` must be below `high`; give the lower limit first, got "
+            f"{format_quantity(low, unit)} and {format_quantity(high, unit)}."
         )
     if not 1e-9 <= tolerance <= 0.1:
         raise InvalidInputError(f"`tolerance` must lie between 1e-9 and 0.1, got {tolerance!r}.")
@@ -235,7 +235,7 @@ def _require_some(question: _FindQuestion, points: Sequence[Point]) -> None:
         return
     first = points[0]
     raise InvalidInputError(
-        f"not one of {len(points)} cases with {question.path} between "
+        f"Not one of {len(points)} cases with {question.path} between "
         f"{question.said(question.low)} and {question.said(question.high)} could be solved; at "
         f"{question.said(first.x)}: {first.message.rstrip('.')}; try other limits."
     )

@@ -20,6 +20,8 @@ Deck = Literal["abaqus", "ansys", "pyvisco"]
 
 _NEARLY = 1e-6  # difference between shear and bulk ratios that is rounding
 _INCOMPRESSIBLE = 0.49  # Poisson ratio from which the bulk modulus hardly affects E
+_WRITTEN = 15  # digits of a ratio; the further ones of a float are rounding
+_READ = 13  # digits of a modulus that ratios with so many determine
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
@@ -44,9 +46,8 @@ def prony_deck(material: Prony, to: Deck, name: str = "rubber") -> str:
     """Write a Prony series for Abaqus (keywords), Ansys (APDL) or pyvisco (CSV).
 
     Units are N, mm, MPa, s, degC. G and K have the same ratios, because the Poisson ratio of a
-    material
-    here does not relax. The terms are those at the reference temperature of the shift law, which is
-    written too if it is WLF.
+    material here does not relax. The terms are those at the reference temperature of the shift law,
+    which is written too if it is WLF.
 
     Raises
     ------
@@ -140,12 +141,17 @@ def _pyvisco(material: Prony, _name: str) -> Iterator[str]:
 
 
 def _instantaneous(material: Prony) -> float:
-    return material.modulus + sum(modulus for modulus, _ in material.terms)
+    return _rounded(material.modulus + sum(modulus for modulus, _ in material.terms))
 
 
 def _ratios(material: Prony) -> Iterator[tuple[float, float]]:
     whole = _instantaneous(material)
-    yield from ((modulus / whole, time) for modulus, time in material.terms)
+    yield from ((_rounded(modulus / whole), time) for modulus, time in material.terms)
+
+
+def _rounded(computed: float, digits: int = _WRITTEN) -> float:
+    """Return a computed number without the rounding of its last digits: 0.1, no 0.0999999999..."""
+    return float(f"{computed:.{digits}g}")
 
 
 def _left_out(material: Prony) -> Iterator[str]:
@@ -331,8 +337,8 @@ def _deck_of_ratios(
             f"{poisson:g} and Young's modulus relaxes as the shear modulus does."
         )
     material = Prony(
-        modulus=whole * left,
-        terms=tuple((whole * ratio, time) for ratio, time in terms),
+        modulus=_rounded(whole * left, _READ),
+        terms=tuple((_rounded(whole * ratio, _READ), time) for ratio, time in terms),
         poisson=poisson,
         temperature=None if law is None else law.reference,
         shift=law,
@@ -342,5 +348,5 @@ def _deck_of_ratios(
 
 def _float(text: str) -> float:
     if _NUMBER.fullmatch(text.strip()) is None:
-        raise InvalidInputError(f'a number must stand where "{text.strip()}" stands in the deck.')
+        raise InvalidInputError(f'A number must stand where "{text.strip()}" stands in the deck.')
     return float(text.strip().replace("D", "E").replace("d", "e"))

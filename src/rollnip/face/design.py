@@ -129,7 +129,7 @@ def _even_load(problem: FaceProblem) -> float:
         raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
     if moment is None or abs(moment) > _BALANCED * abs(total) * problem.face.length:
         raise InvalidInputError(
-            "a crown evens out a load only where both sides of the face carry the same: give equal "
+            "A crown evens out a load only where both sides of the face carry the same: give equal "
             "`end_loads`, and leave out `bearing_offset` and `bearing_middle`."
         )
     return total / problem.face.length
@@ -223,7 +223,7 @@ def load_range(
     """
     if not isinstance(nip.normal, LineLoad):
         raise InvalidInputError("`load` must be given to look for a range about it.")
-    _require_share(within)
+    require_share(within)
     centre, kept = nip.normal.load, law
     even = replace(face, end_loads=None)
 
@@ -307,7 +307,7 @@ def plain_wall(
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
         raise InvalidInputError(f"`{roller}.shaft` is needed for the wall of its core.")
-    _require_share(within)
+    require_share(within)
     core = 2.0 * (one.radius - one.coating_thickness)
     kept = law
 
@@ -336,6 +336,7 @@ def plain_wall(
     return PlainWall(roller, within, float(bore), 0.5 * (core - float(bore)), solid)
 
 
-def _require_share(within: float) -> None:
+def require_share(within: float) -> None:
+    """Raise InvalidInputError unless a share of the mean lies between 0 and 1."""
     if not 0.0 < within < 1.0:
         raise InvalidInputError(f"`within` must lie between 0 and 1, got {within!r}.")

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, ndtri
 
-from rollnip._errors import InvalidInputError, require_positive
+from rollnip._errors import InvalidInputError, require_finite, require_positive
 from rollnip.face.design import AnyLaw, with_crown
 from rollnip.face.figures import IMPRESSION_FIGURES
 from rollnip.face.find import solve_face
@@ -31,6 +31,7 @@ from rollnip.shafts import Crown, Face
 Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]
 
+_ROUNDING = 1e-9  # of the length of the face
 _NO_CROWN = 1e-3  # mm on the diameter, less than a grinder's tolerance
 _UNTOLD = 0.5  # relative half-width of an interval, above which the data do not determine a value
 
@@ -56,8 +57,13 @@ class Impression:
         y, width = np.asarray(self.y, float), np.asarray(self.width, float)
         if y.ndim != 1 or y.shape != width.shape or y.size == 0:
             raise InvalidInputError("`width` must have one value for each place of `y`.")
-        if not (np.all(np.isfinite(y)) and np.all(width > 0.0) and np.all(np.isfinite(width))):
-            raise InvalidInputError("`y` must be finite and `width` positive everywhere.")
+        for place, found in zip(y, width, strict=True):
+            require_finite("y", place)
+            if not 0.0 < found < np.inf:
+                raise InvalidInputError(
+                    "`width` must be positive and finite everywhere, "
+                    f"got {found:g} mm at y = {place:g} mm."
+                )
         object.__setattr__(self, "y", y)
         object.__setattr__(self, "width", width)
         object.__setattr__(self, "scatter", require_positive("scatter", self.scatter))
@@ -164,7 +170,7 @@ def read_impressions(
     first = _loads(nip, impressions)
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
-        raise InvalidInputError(f"`{roller}.shaft` is needed to read an impression.")
+        raise InvalidInputError(f"`{roller}.shaft` must be given to read an impression.")
     crown = one.shaft.crown.height if isinstance(one.shaft.crown, Crown) else 0.0
     start = {"load": first[0], "tilt": 0.0, "crown": crown, "modulus": 1.0}
     scales = {"load": first[0], "tilt": 0.2 * first[0] * face.length, "crown": 0.1, "modulus": 1.0}
@@ -203,16 +209,28 @@ def _check(face: Face, impressions: Sequence[Impression], unknowns: Sequence[Unk
         raise InvalidInputError("`unknowns` must hold different names, at least one.")
     count = sum(i.places.size for i in impressions)
     if count < len(unknowns):
-        raise InvalidInputError(f"{len(unknowns)} unknowns need as many widths, got {count}.")
+        raise InvalidInputError(
+            f"`width` must have as many values as there are unknowns, {len(unknowns)}, got {count}."
+        )
     for impression in impressions:
-        if np.max(np.abs(impression.places)) > 0.5 * face.length * (1.0 + 1e-9):
-            raise InvalidInputError(
-                f"`y` must lie on the face, within {0.5 * face.length:g} mm of its middle."
-            )
+        require_on_face(impression.places, face)
     if "load" in unknowns and len(impressions) > 1:
         raise InvalidInputError("`load` can be unknown for one impression alone.")
     if face.end_loads is not None and len(impressions) > 1:
-        raise InvalidInputError("several impressions need a `load` each, not `end_loads`.")
+        raise InvalidInputError(
+            "`end_loads` must be left out for several impressions; give each its `load`."
+        )
+
+
+def require_on_face(y: Array, face: Face) -> None:
+    """Raise InvalidInputError, which names it, where a place [mm] lies off the face."""
+    half = 0.5 * face.length
+    outside = y[np.abs(y) > half * (1.0 + _ROUNDING)]
+    if outside.size:
+        raise InvalidInputError(
+            f"`y` must lie on the face, within {half:g} mm of its middle (its length is "
+            f"{face.length:g} mm), got {outside[0]:g} mm."
+        )
 
 
 def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:

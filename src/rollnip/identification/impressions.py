@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from rollnip._errors import InvalidInputError
 from rollnip.face import FaceSolution
+from rollnip.face.impression import require_on_face
 from rollnip.identification.costs import Array, Measurements, entry_of
 
 __all__ = ["Impressions"]
@@ -69,9 +70,7 @@ class Impressions(Measurements):
             where a place lies outside the face.
         """
         faces: Sequence[FaceSolution] = solutions
-        half = 0.5 * faces[0].face.length
-        if np.max(np.abs(self.places)) > half * (1.0 + 1e-9):
-            raise InvalidInputError(f"`y` must lie on the face, within {half:g} mm of its middle.")
+        require_on_face(self.places, faces[0].face)
         curves = [np.interp(self.places, one.y, one.nip_width) for one in faces]
         return np.asarray(np.array(curves)[self._faces[1], np.arange(self.places.size)])
 

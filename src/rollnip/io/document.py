@@ -7,12 +7,13 @@ import re
 import sys
 import tomllib
 from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from rollnip._errors import CaseFileError
+from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 
@@ -33,7 +34,14 @@ def read_document(path: str | Path) -> dict[str, Any]:
     ------
     CaseFileError
         where it cannot be read, is too large, is no text, or its syntax is broken.
+    InvalidInputError
+        where ``path`` is no name of a file.
     """
+    if not isinstance(path, str | PathLike):
+        hint = "; `rollnip.io.parse_case` takes a tree" if isinstance(path, Mapping) else ""
+        raise InvalidInputError(
+            f"`path` must be the name of a file, got {type(path).__name__}{hint}."
+        )
     name = str(path)
     reading(name)
     return parse_document(_text(_bytes(name), name), name)

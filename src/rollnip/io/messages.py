@@ -20,6 +20,13 @@ _INSTEAD = {
     "nip.friction": "; give a coefficient such as 0.5 (0: frictionless); only a sheet with "
     "`friction_upper` and `friction_lower` of its own does without"
 }
+_OTHER_NAMES = {
+    "diameter": ("radius", ", half of it"),
+    "hardness": ("shore_a", ""),
+    "nu": ("poisson", ""),
+    "mu": ("friction", ""),
+}
+"""Keys that are tried, the key that is meant, and what to write there."""
 _MOST_ERRORS = 20
 T = TypeVar("T", bound=FileTable)
 _WORDS = {
@@ -175,6 +182,9 @@ def _suggestion(
     above = [tables[name] for name in found if name in tables]
     table = above[-1] if above else root
     names = list(table.model_fields)
+    meant, how = _OTHER_NAMES.get(str(loc[-1]), ("", ""))
+    if meant in names:
+        return f'; give "{meant}"{how}.'
     near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
     if near:
         return f'; did you mean "{near[0]}"?'

@@ -12,6 +12,7 @@ import numpy as np
 
 from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
+from rollnip._json import json_text
 from rollnip.figures import FIELDS, INTERFACE_FIGURES
 from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
@@ -55,7 +56,7 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
     target = Path(path)
     check_patch_target(target)
     if target.suffix.lower() == ".json":
-        text = dumps(patch_dict(solution, fields=True), allow_nan=False) + "\n"
+        text = json_text(patch_dict(solution, fields=True), indent=None) + "\n"
         write_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
     elif target.suffix.lower() == ".vtr":
         surface = _surface(solution)

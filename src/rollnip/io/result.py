@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
+from rollnip._json import json_text
 from rollnip._results.tree import result_dict
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 
@@ -23,9 +23,7 @@ SUFFIXES = (".json", ".nc")
 def result_text(solution: Solution, parts: Mapping[str, Any] | None = None) -> str:
     """Return the result as JSON, a line for each key; ``parts`` adds keys such as "face"."""
     tree = {**result_dict(solution), **(parts or {})}
-    lines = [
-        f"{json.dumps(name)}: {json.dumps(value, allow_nan=False)}" for name, value in tree.items()
-    ]
+    lines = [f"{json_text(name)}: {json_text(value, indent=None)}" for name, value in tree.items()]
     return "{\n  " + ",\n  ".join(lines) + "\n}\n"
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from math import sqrt
 from types import MappingProxyType
 
-from rollnip._errors import InvalidInputError, require_finite, require_positive
+from rollnip._errors import InvalidInputError, require_finite, require_positive, with_hints
 
 _LARGEST_EXPANSION = 1e-2  # 1/K; already 1e-3 is more than any solid has
 
 
+@with_hints()
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Thermal:
     """Thermal properties of a material; they do not depend on the temperature.

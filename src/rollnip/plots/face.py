@@ -122,5 +122,5 @@ def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
     )
     for values, color, dashes, name in lines:
         ax.plot(solution.y, values, color=color, linewidth=1.8, linestyle=dashes, label=name)
-    ax.set_ylabel(FACE_PROFILES["deflection_upper"].axis_for("more than at the ends"))
+    ax.set_ylabel(FACE_PROFILES["deflection_upper"].axis_for("minus ends"))
     ax.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")

@@ -15,6 +15,8 @@ from rollnip.plots.arrays import Array, finite_row, require_some
 from rollnip.plots.style import Look, Style, figure_of, label, legend, prepare
 
 _LEVELS = 9
+_EDGE = 0.05  # of the picture; a value nearer to the frame would lie over it
+_SHORT = 0.08  # of the picture; on a shorter contour there is no room for a value
 
 
 def plot_map(
@@ -56,11 +58,7 @@ def plot_map(
     ax, look = prepare(ax, style)
     ax.set_facecolor(look.palette.contact)
     filled, lines = _contours(ax, look, places, field)
-    ax.clabel(lines, fontsize=look.small, fmt="%.4g")
-    for text in lines.labelTexts:
-        text.set_clip_on(False)  # one at the edge is read in full
-        text.set_path_effects([withStroke(linewidth=2.5, foreground=look.palette.ground)])
-        text.set_color(look.palette.ink)
+    _write_values(ax, look, lines)
     if wanted is not None:
         _wanted(ax, look, (*places, field), wanted, names[2])
     bar = figure_of(ax).colorbar(filled, ax=ax)
@@ -98,6 +96,28 @@ def _contours(ax: Axes, look: Look, places: tuple[Array, Array], field: Any) -> 
     drawn = ax.tricontour(*points, **lines)
     ax.plot(x, y, ".", color=look.palette.muted, markersize=0.25 * look.size)
     return filled, drawn
+
+
+def _write_values(ax: Axes, look: Look, lines: Any) -> None:
+    """Write the value of each contour on it, where it is farthest from the frame.
+
+    A contour that is short, or near the frame everywhere, has none: the colours say it.
+    """
+    frame = np.array([ax.get_xlim(), ax.get_ylim()]).T
+    places = []
+    for segment in (one for level in lines.allsegs for one in level if len(one) > 1):
+        steps = np.arange(len(segment))
+        fine = np.linspace(0.0, steps[-1], 20 * steps[-1] + 1)
+        points = np.stack([np.interp(fine, steps, column) for column in segment.T], axis=1)
+        share = (points - frame[0]) / (frame[1] - frame[0])
+        inside = np.minimum(share, 1.0 - share).min(axis=1)
+        best = np.argmax(inside)
+        if inside[best] > _EDGE and np.ptp(share, axis=0).max() > _SHORT:
+            places.append(tuple(points[best]))
+    ax.clabel(lines, fontsize=look.small, fmt="%.4g", manual=places)
+    for text in lines.labelTexts:
+        text.set_path_effects([withStroke(linewidth=2.5, foreground=look.palette.ground)])
+        text.set_color(look.palette.ink)
 
 
 def _wanted(

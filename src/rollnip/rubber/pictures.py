@@ -62,7 +62,11 @@ def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = No
         )
     label(ax, look, MEASURED["strain"].axis, MEASURED["nominal_stress"].axis)
     ax.legend(
-        frameon=False, fontsize=look.small, labelcolor=colours.ink, title=fit.law, loc="best"
+        title=f"curves: {fit.law}",
+        frameon=False,
+        fontsize=look.small,
+        labelcolor=colours.ink,
+        loc="best",
     ).get_title().set(fontsize=look.small, color=colours.ink)
     return ax
 

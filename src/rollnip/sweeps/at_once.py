@@ -80,12 +80,12 @@ def together(workers: int, interrupts: Interrupts) -> Iterator[Together]:
 
         def elsewhere(tree: Mapping[str, Any]) -> Row:
             if stopped.is_set():
-                raise RollnipError("stopped.")  # in a thread that nobody waits for any more
+                raise RollnipError("Stopped.")  # in a thread that nobody waits for any more
             try:
                 return crew.call(evaluate, tree).result()
             except BrokenExecutor:
                 raise RollnipError(
-                    "a worker process ended while it solved a case (out of memory?)."
+                    "A worker process ended while it solved a case (out of memory?)."
                 ) from None
 
         try:

@@ -45,7 +45,7 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
     """
     if address != "local" and not _ADDRESS.fullmatch(address):
         raise RollnipError(
-            f'the address of a Dask scheduler must be like tcp://host:8786, or "local", '
+            f'The address of a Dask scheduler must be like tcp://host:8786, or "local", '
             f'got "{address}".'
         )
     require_extra("cluster", "solving on a Dask cluster", "leave out --dask")

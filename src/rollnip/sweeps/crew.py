@@ -105,13 +105,13 @@ class Processes:
             theirs = answers[0].result()
         except BrokenExecutor:
             raise RollnipError(
-                "worker processes cannot be started. In a script, call the sweep below "
+                "Worker processes cannot be started. In a script, call the sweep below "
                 '`if __name__ == "__main__":`, or choose `workers=1`.'
             ) from None
         if theirs != own_version():
             pool.shutdown(wait=True, cancel_futures=True)
             raise RollnipError(
-                f"new worker processes have rollnip {theirs}, this is {own_version()}: its code "
+                f"New worker processes have rollnip {theirs}, this is {own_version()}: its code "
                 "changed since this process began; start it again."
             )
         return pool
@@ -141,7 +141,7 @@ class Given:
 
     def restart(self) -> None:
         """Refuse: the executor belongs to the caller. Raises RollnipError."""
-        raise RollnipError("the executor broke; what was finished is kept: run the same again.")
+        raise RollnipError("The executor broke; what was finished is kept: run the same again.")
 
     def require_alive(self) -> None:
         """Do nothing: an executor cannot tell whether its workers are alive."""

@@ -41,7 +41,7 @@ def merged(databases: Sequence[Path]) -> Iterator[Store]:
                     _require_same(path, shard.about, databases[0], target.about)
                     target.take(shard)
             if target is None:
-                raise RollnipError("there is no database to merge.")
+                raise RollnipError("There is no database to merge.")
             _require_all(target)
             yield target
         finally:

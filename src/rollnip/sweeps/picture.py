@@ -43,10 +43,10 @@ def plot_sweep(store: Store, *, style: Style = "light") -> Figure:
     changing = [i for i, one in enumerate(parameters.values()) if np.unique(one).size > 1]
     names = [list(parameters)[i] for i in changing]
     if not names:
-        raise InvalidInputError("no parameter that is a number changes: there is nothing to draw.")
+        raise InvalidInputError("No parameter that is a number changes: there is nothing to draw.")
     columns = [parameters[name] for name in names]
     if not any(np.isfinite(one).any() for one in values.values()):
-        raise InvalidInputError("no case was solved: there is nothing to draw.")
+        raise InvalidInputError("No case was solved: there is nothing to draw.")
     heads = [_head(store, name) for name in names]
     is_map = len(names) == 2 and _is_grid(columns)
     wide = 1 if len(names) == 1 else len(results) if is_map else min(len(names), _MOST_PARAMETERS)

@@ -47,8 +47,8 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
     """
     if isinstance(study, Mapping):
         return _StudyReader(plain_tree(study), "study", Path()).study()
-    folder = folder_of(study)
-    return _StudyReader(read_document(study), str(study), folder).study()
+    tree = read_document(study)
+    return _StudyReader(tree, str(study), folder_of(study)).study()
 
 
 class _StudyReader:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from math import isfinite
 from typing import Any
 
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
+from rollnip._json import json_bytes
 
 _PATH = re.compile(r"(materials\..{1,80}?|[^\s:]{1,120}): (.*)", re.DOTALL)
 _NAMED = re.compile(r"`([\w.]+)`")
@@ -35,11 +35,6 @@ class RefusedError(Exception):
         self.body = json_bytes(error_tree(error, details))
         # A second is what the longest queue takes, more or less.
         self.headers = {"retry-after": "1"} if status == 429 else {}
-
-
-def json_bytes(tree: Any) -> bytes:
-    """JSON without blanks; a number that is not finite is an error of the program."""
-    return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()
 
 
 def as_json(value: Any) -> Any:

@@ -15,8 +15,9 @@ from fastapi.responses import FileResponse, Response
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 
+from rollnip._json import json_bytes
 from rollnip.io import case_schema
-from rollnip.web.answers import RefusedError, error_tree, json_bytes
+from rollnip.web.answers import RefusedError, error_tree
 from rollnip.web.bodies import CASE
 from rollnip.web.desk import Desk
 from rollnip.web.guard import Guard

@@ -9,7 +9,8 @@ from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from typing import Any, TypeGuard
 
-from rollnip.web.answers import RefusedError, Reply, json_bytes
+from rollnip._json import json_bytes
+from rollnip.web.answers import RefusedError, Reply
 from rollnip.web.bodies import (
     CrownBody,
     FindBody,

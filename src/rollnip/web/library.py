@@ -18,7 +18,7 @@ from rollnip.face.figures import (
     SHEET_FACE_FIGURES,
     SHEET_FACE_PROFILES,
 )
-from rollnip.figure import LARGE, ROUNDING, US, US_NAMES, US_TOTALS, Figure, Shown
+from rollnip.figure import LARGE, LOST, ROUNDING, US, US_NAMES, US_TOTALS, Figure, Shown
 from rollnip.figure import Dimension as FigureDimension
 from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
 from rollnip.heat.figures import (
@@ -174,6 +174,7 @@ def figures_module() -> str:
     keys = [*_FIRST, *(key for key in FIGURES if key not in (*_FIRST, *_NOT_SHOWN))]
     parts = {
         "ROUNDING": ROUNDING,
+        "LOST": LOST,
         "FIGURES": [_figure(FIGURES[key]) for key in keys],
         "SHEET_FIGURES": [_figure(figure) for figure in SHEET_FIGURES.values()],
         "MORE_FIGURES": {

@@ -11,9 +11,10 @@ from fastapi import APIRouter, Body, Query, Request
 from fastapi.responses import Response
 
 from rollnip._errors import InvalidInputError
+from rollnip._json import json_bytes
 from rollnip._units import base_unit
 from rollnip.io import case_schema
-from rollnip.web.answers import RefusedError, Reply, json_bytes
+from rollnip.web.answers import RefusedError, Reply
 from rollnip.web.bodies import (
     Case,
     CrownBody,

@@ -75,7 +75,7 @@ def _bound(host: str, port: int) -> socket.socket:
         number = getattr(error, "errno", None) or 0
         reason = os.strerror(number) if number > 0 else str(error)
         raise RollnipError(
-            f"cannot serve at {host}, port {port}: {reason}; choose another with --port or --host."
+            f"Cannot serve at {host}, port {port}: {reason}; choose another with --port or --host."
         ) from None
 
 

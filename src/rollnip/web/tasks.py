@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
+from rollnip._json import json_bytes
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.design import find
 from rollnip.influence import KernelCache
@@ -33,7 +34,7 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 from rollnip.solver import solve
 from rollnip.sweeps import scalars
-from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, json_bytes, refusal
+from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, refusal
 from rollnip.web.faces import Faces
 from rollnip.web.heats import Heats
 from rollnip.web.impressions import read_impression

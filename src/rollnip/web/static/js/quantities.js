@@ -1,6 +1,6 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
-import { FIGURES, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
+import { FIGURES, LOST, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
 import { shaftRange, tractionRange } from "./reach.js";
 import { sheetPaths } from "./sheet.js";
@@ -8,7 +8,6 @@ import { number, written } from "./units.js";
 import { firstInText, say, sayOr } from "./texts.js";
 
 const TINY = 2e-5; // relative errors below it say nothing to anybody
-const LOST = 0.05; // share of its own error below which nothing is left of a figure
 
 const MATERIAL = {
   shore_a: {
@@ -361,7 +360,7 @@ function isNoise(value, all, size) {
   return Math.abs(value) < factors.reduce((product, factor) => product * factor, ROUNDING);
 }
 
-/** Whether a figure is less than the last digit that its error is written with. */
+/** Whether a figure is so much less than its own error that nothing is left of it. */
 function isLost(value, error) {
   return Boolean(value && error) && Math.abs(value) < LOST * error;
 }

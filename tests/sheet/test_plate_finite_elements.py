@@ -86,7 +86,11 @@ def test_between_two_coverings(name):
 
 
 def test_a_board_that_is_bent_around_a_bare_roller():
-    """0.3 mm around a radius of 30 mm; without that load approach and peak .5 % off."""
+    """0.3 mm around a radius of 30 mm; without that load approach and peak .5 % off.
+
+    The largest tension, 0.267 N/mm, was 0.0055 too large without the levers of the shears and what
+    the bending moment takes of it; the elements know it to 0.0021.
+    """
     case = CASES["board between rubber and steel"]
     solution = solved(case)
     off = off_by(solution, case)
@@ -94,6 +98,7 @@ def test_a_board_that_is_bent_around_a_bare_roller():
     assert abs(off["peak above"]) < 3e-4
     assert abs(off["peak below"]) < 2e-2  # a spike as long as the board is thick
     assert max(abs(off["creepage above"]), abs(off["creepage below"])) < 1.5e-4
+    assert abs(off["tension"]) < case["uncertainty"]["tension_max"]
     within_claims(solution, case, off)
 
 

@@ -11,6 +11,7 @@ from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Side
 from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.result import Grip
+from rollnip.sheet.tension import FaceLevers
 
 Array = NDArray[np.float64]
 
@@ -18,7 +19,11 @@ _ALIKE = 1e-4  # relative difference of creepages that the mesh makes between eq
 
 
 def grip_of(
-    nip: Nip, pressed: float, pulls: tuple[float, float], sliding: tuple[Array, Array]
+    nip: Nip,
+    pressed: float,
+    pulls: tuple[float, float],
+    sliding: tuple[Array, Array],
+    levers: tuple[FaceLevers, FaceLevers] | None = None,
 ) -> Grip:
     """Return the range of pulls that the nip holds, and the use of friction on both sides.
 
@@ -28,13 +33,19 @@ def grip_of(
     pressed : int p dx [N/mm]; at finite strain the load plus the part of it that the shears carry.
     pulls : T_u and T_l [N/mm].
     sliding : see `first_to_slide`; used where the rollers are geared together.
+    levers : of the shears on both faces, by which the pull differs from T_u - T_l
+        (`rollnip.sheet.tension`); None: neglected.
     """
     (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), pulls, nip.sheet
     assert sheet is not None
     first: Side = "upper"
-    reach, kept = mu_u * pressed, lower
+    above = below = kept = 0.0
+    if levers is not None:
+        above, below = (float(one.pressed @ one.ratios) for one in levers)
+        kept = levers[1].lost
+    reach, kept = mu_u * (pressed - above), kept + lower
     if isinstance(nip.tangential, Creepage):
-        reach, kept = (mu_u + mu_l) * pressed, 0.0
+        reach, kept = reach + mu_l * (pressed + below), 0.0
         first = first_to_slide(sliding, nip.tangential.creepage)
     return Grip(
         pull=sheet.tension_in - sheet.tension_out,

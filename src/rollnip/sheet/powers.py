@@ -4,10 +4,12 @@ As without a sheet, M_u V_u/R_u = V_u (int q_u lambda_u ds + w_u) and
 M_l V_l/R_l = V_l (w_l - int q_l lambda_l ds), with the loss w inside each roller per rolled
 distance. Slip dissipates int q_u (creep of the upper interface) V of that power, and likewise on
 the lower interface. The rest goes into the sheet:
-V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds. In `linear` that is the work against
-its tensions plus the elastic energy that it carries away. With the curvature of the path it differs
-from that by terms of the order of V_s int h kappa/2 (q_u + q_l) ds, which the growth of the
-tension, q_u - q_l, leaves out: with thick sheets on small rollers some per cent of that power.
+V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds. That is the work against its
+tensions plus the elastic energy that it carries away, V_s [N + a N^2/2] from the outlet to the
+inlet, but for products of pressure and strain: V_s b int p dN, at most 1.3e-4 of the largest power,
+or of V times a traction, in 22 sheets. Pressures on faces that are inclined because the thickness
+changes would take it back; they are left out. A plate in `linear` has the curvature in the speed of
+its faces, but not in its tension.
 """
 
 from __future__ import annotations

@@ -53,11 +53,13 @@ class SheetProfiles(Sealed):
 class Grip:
     """The pull that the sheet can take before it slips through the nip.
 
-    The pull is the tension on the inlet side less that on the outlet side, which is the force of
-    the rollers on the sheet, T_u - T_l (at finite strain up to a hundredth more, because tension
-    grows along the path of the sheet). In full sliding each roller contributes its friction
-    coefficient times int p dx. That integral is the load; at finite strain the shears carry part of
-    the load along the curved path, a few hundredths at most, which is taken at its present value.
+    The pull is the tension on the inlet side less that on the outlet side, which in "linear" is the
+    force of the rollers on the sheet, T_u - T_l. Otherwise it differs from that by some hundredths
+    at most, because the shears act beside the middle of a sheet on a curved path, and at finite
+    strain also because the path is longer than its extent along x. In full sliding each roller
+    contributes its friction coefficient times int p dx, with the same differences. That integral is
+    the load; at finite strain the shears carry part of the load along the curved path, a few
+    hundredths at most, which is taken at its present value.
 
     Attributes
     ----------

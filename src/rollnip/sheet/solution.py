@@ -29,6 +29,7 @@ from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.formulation import traction_slope
+from rollnip.sheet.membrane.lagged_terms import face_levers
 from rollnip.sheet.membrane.search import MembraneIterate
 from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
 from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
@@ -42,6 +43,7 @@ from rollnip.sheet.result import (
     slip_share_of,
     zones_of,
 )
+from rollnip.sheet.tension import FaceLevers
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
@@ -186,7 +188,7 @@ class SheetSolution(SmoothSolution):
             bends=self.bends,
             nip_width_lower=self.on_lower_side[0],
             peak_pressure_lower=self.on_lower_side[1],
-            grip=grip_of(self.nip, pressed, pulls, self._sliding()),
+            grip=grip_of(self.nip, pressed, pulls, self._sliding(), self._levers),
             profiles=self._sheet_profiles(),
             error=self.sheet_errors(),
         )
@@ -244,12 +246,10 @@ class SheetSolution(SmoothSolution):
             mine |= {name: max(mine[name], passed) for name in sides}
         if isinstance(self.nip.tangential, Creepage | Torque):
             return mine
-        sheet = self.nip.sheet
-        assert sheet is not None
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
-        if self.model.geometry in FINITE:  # tension gains along the path, tractions act along x
+        if self.model.geometry != "linear":  # levers and length of the path are lagged
             return mine
-        wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
+        wanted = self.nip.tangential.traction + self.refined.iterate.lagged.known.change
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 
@@ -324,15 +324,13 @@ class SheetSolution(SmoothSolution):
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
-        sheet, problem, state = self.nip.sheet, self.refined.iterate.problem, self._state
-        assert sheet is not None
-        nodes, mesh = self.final.nodes, problem.mesh
+        iterate, state = self.refined.iterate, self._state
+        nodes, problem = self.final.nodes, iterate.problem
         pull = np.zeros(nodes.size)
-        pull[1:-1] = mesh.acting(state.shear - state.shear_lower)
+        pull[1:-1] = problem.mesh.acting(state.shear - state.shear_lower)
         pieces = 0.5 * problem.arcs * np.diff(nodes) * (pull[1:] + pull[:-1])
         beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
-        values = sheet.tension_in - beyond
-        return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
+        return np.asarray(iterate.lagged.known.at(x) - np.interp(x, nodes, beyond))
 
     def _strain_of_sheet(self, x: Array) -> Array:
         """Return the strain of the sheet due to its tension and the pressure on it."""
@@ -362,6 +360,13 @@ class SheetSolution(SmoothSolution):
             return x, u
         held = self.kernels.held or mesh.second_fields(state)
         return x, u + held.at(x)
+
+    @property
+    def _levers(self) -> tuple[FaceLevers, FaceLevers] | None:
+        """Forces on both faces of the sheet, and their levers; None where these are neglected."""
+        iterate, state = self.refined.iterate, self._state
+        u = iterate.problem.mesh.displacements(state)
+        return None if self.model.geometry == "linear" else face_levers(iterate.problem, state, u)
 
     def _sliding(self) -> tuple[Array, Array]:
         """Return creeps per length in full sliding, see `grip.first_to_slide`."""

@@ -124,9 +124,9 @@ def _inequalities(
         matrix[-3, :n], right[-3] = weights, -(nip.normal.load + lagged.lean)
     else:
         matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
-    pulled = problem.sheet.tension_in - problem.sheet.tension_out
     pulls = problem.force_weights
-    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3], right[-2] = pulls, -pulls, -pulled
+    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3] = pulls, -pulls
+    right[-2] = -lagged.known.change
     if isinstance(nip.tangential, Creepage):
         matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope
     else:

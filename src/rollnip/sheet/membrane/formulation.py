@@ -16,8 +16,8 @@ from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.membrane.lagged_terms import (
     change_of_terms,
+    face_levers,
     lagged_terms,
-    path_slope_changes,
     pulls_of,
     residual_with_terms,
 )
@@ -52,7 +52,7 @@ class MembraneFormulation:
         """Return the figures of a solution."""
         problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
         peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-        tension, strain = problem.tension_at(state), strain_at(iterate)
+        tension, strain = problem.tension_at(state, iterate.lagged.known), strain_at(iterate)
         widest = 1.0 if strain.max() > -strain.min() else -1.0
         into_sheet = _into_sheet(iterate, geometry)
         return (
@@ -93,7 +93,7 @@ class MembraneFormulation:
 def strain_at(iterate: MembraneIterate) -> Array:
     """Return the strain of the sheet at the nodes, (n,)."""
     problem, state, sheet = iterate.problem, iterate.state, iterate.problem.sheet
-    tension = sheet.stretch_by_tension * problem.tension_at(state)
+    tension = sheet.stretch_by_tension * problem.tension_at(state, iterate.lagged.known)
     return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
 
@@ -112,16 +112,14 @@ def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     The faces run at V_s (1 + e -+ h kappa/2). "linear" neglects products of creepage and strain.
     """
     problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
-    above, below = problem.shear_forces(state, 0), problem.shear_forces(state, 1)
-    pushed, sheared = above - below, above + below
-    strain = (problem.strain_over(state) / mesh.dx)[:-1]
+    faces = face_levers(problem, state, mesh.displacements(state))
+    pushed = faces[0].forces - faces[1].forces
+    strain = (problem.strain_over(state, iterate.lagged.known) / mesh.dx)[:-1]
     rate = sheet_rate(*state.creepages)
     taken = rate * float(pushed.sum())
     if geometry == "linear":
         return taken + float(pushed @ strain)
-    turn = path_slope_changes(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
-    bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
-    return taken + rate * (float(pushed @ strain) - bent)
+    return taken + rate * (float(pushed @ strain) - sum(one.lost for one in faces))
 
 
 def traction_slope(iterate: MembraneIterate) -> float:

@@ -27,14 +27,15 @@ from rollnip.sheet.lagged_terms import (
     traction_for_torque,
 )
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
+from rollnip.sheet.tension import FaceLevers, KnownTension
 
 Array = NDArray[np.float64]
 
 
 def initial_terms(problem: MembraneProblem) -> MembraneTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
-    n = problem.mesh.inner.size
-    return MembraneTerms(np.zeros(n), np.zeros((2, n)), initial_traction(problem.nip))
+    n, known = problem.mesh.inner.size, KnownTension.on_straight_path(problem.sheet)
+    return MembraneTerms(np.zeros(n), np.zeros((2, n)), initial_traction(problem.nip), known)
 
 
 def lagged_terms(
@@ -47,19 +48,22 @@ def lagged_terms(
     nip, mesh = problem.nip, problem.mesh
     flat = mesh.linear_displacements(state)
     u = mesh.with_second(flat, state)
-    clearance, lean, offsets = first.clearance, 0.0, first.offsets
+    clearance, lean, offsets, known = first.clearance, 0.0, first.offsets, first.known
     if geometry in FINITE:
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate
         lean = _lean(problem, state, u)
     if geometry != "linear":
-        offsets = _offsets(problem, geometry, state, flat, u)
+        if problem.knows_path:
+            faces = face_levers(problem, state, u)
+            known = KnownTension.after(problem.sheet, faces, bends=False)
+        offsets = _offsets(problem, geometry, state, known, (flat, u))
     traction = first.traction
     if isinstance(nip.tangential, Torque):
         _, pull = pulls_of(problem, geometry, state, mesh.uncut(u))
         traction = traction_for_torque(problem, geometry, state, pull)
-    return MembraneTerms(clearance, offsets, traction, lean)
+    return MembraneTerms(clearance, offsets, traction, known, lean)
 
 
 def change_of_terms(
@@ -75,6 +79,7 @@ def change_of_terms(
     creepage = max(abs(state.creepage), abs(state.creepage_lower))
     scale = scale_of_creepage(creepage, strain)
     changes = [float(np.abs(new.clearance - old.clearance).max()) / approach, rough / scale]
+    changes.append(_known_change(new, old, problem, state))
     if new.traction is not None and old.traction is not None:
         load = float(mesh.weights @ state.pressure)
         changes.append(abs(new.traction - old.traction) / (strain * load))
@@ -88,8 +93,8 @@ def residual_with_terms(
 
     ``old``: the terms that it was solved with; ``new``: those it is checked with. The residual is
     the largest of the gap under pressure, over the approach and weighted by the pressure over its
-    peak, and of the distances that sticking surfaces creep, over the width and the scale of a
-    creepage.
+    peak, of the distances that sticking surfaces creep, over the width and the scale of a creepage,
+    and of the change of the tension due to the path, over the load.
     """
     nip, mesh = problem.nip, problem.mesh
     half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
@@ -99,7 +104,15 @@ def residual_with_terms(
     parts = [pressed_gap(new.clearance - old.clearance, state.pressure) / approach]
     for states, drift in zip(state.both_states, new.offsets - old.offsets, strict=True):
         parts.append(creep_in_stick(drift, states) / (2.0 * half * scale))
-    return largest(*parts)
+    return largest(*parts, _known_change(new, old, problem, state))
+
+
+def _known_change(
+    new: MembraneTerms, old: MembraneTerms, problem: MembraneProblem, state: MembraneState
+) -> float:
+    """Return the change of tension due to the curved path, over the load."""
+    load = float(problem.mesh.weights @ state.pressure)
+    return new.known.change_from(old.known) / load if load > 0.0 else 0.0
 
 
 def path_slope_changes(problem: MembraneProblem, u: Displacements) -> Array:
@@ -117,19 +130,33 @@ def path_slope_changes(problem: MembraneProblem, u: Displacements) -> Array:
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
 
 
+def face_levers(
+    problem: MembraneProblem, state: MembraneState, u: Displacements
+) -> tuple[FaceLevers, FaceLevers]:
+    """Return the forces on both faces, and the levers of the shears; ``u`` at nodes[1:]."""
+    mesh = problem.mesh
+    turn = path_slope_changes(problem, u)[:-1] / mesh.dx[:-1]
+    ratios, pressed = 0.5 * problem.sheet.thickness * turn, problem.forces(state.pressure)
+    upper, lower = (
+        FaceLevers(mesh.inner, problem.shear_forces(state, side), pressed, ratios)
+        for side in (0, 1)
+    )
+    return upper, lower
+
+
 def _offsets(
     problem: MembraneProblem,
     geometry: Geometry,
     state: MembraneState,
-    flat: Displacements,
-    u: Displacements,
+    known: KnownTension,
+    displacements: tuple[Displacements, Displacements],
 ) -> Array:
     """Return the nonlinear part of both creeps: stretch, path, and products of creepage and strain.
 
     The creep of the upper interface is (V_u/V) stretch_u - (V_s/V) (1 + e - h kappa/2), that of the
     lower one (V_s/V) (1 + e + h kappa/2) - (V_l/V) stretch_l.
     """
-    nip, mesh = problem.nip, problem.mesh
+    nip, mesh, (flat, u) = problem.nip, problem.mesh, displacements
     x = mesh.fine.nodes[1:]
     hoops = np.array(mesh.kernels.hoops)[:, None]
     excess = stretch_excess(x, nip, geometry, mesh.finer(u))
@@ -140,7 +167,7 @@ def _offsets(
     if problem.has_path:  # the matrix includes the path by linear displacements
         turn -= 0.5 * problem.path.slope_changes(flat.z_upper - flat.z_lower)
     bend = 0.5 * problem.sheet.thickness * turn
-    strained = (rate - 1.0) * problem.strain_over(state)
+    strained = (rate - 1.0) * problem.strain_over(state, known)
     upper = mesh.sums((1.0 + half) * excess[0] - linear[0])
     lower = mesh.sums((1.0 - half) * excess[1] - linear[1])
     return np.stack([upper - strained + bend, strained + bend - lower])

@@ -121,7 +121,5 @@ def _right_side(problem: MembraneProblem, states: States, lagged: MembraneTerms)
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
     assert last is not None
-    pulled = problem.sheet.tension_in - problem.sheet.tension_out
-    return np.concatenate(
-        [-right[0, contact], -right[1:].reshape(-1)[sticks], [load, pulled, last]]
-    )
+    prescribed = [load, lagged.known.change, last]
+    return np.concatenate([-right[0, contact], -right[1:].reshape(-1)[sticks], prescribed])

@@ -2,8 +2,9 @@
 
 Unknowns are the pressure p, the shears q_u and q_l on the upper and the lower roller's side of the
 sheet, the approach, and the creepages of both rollers against the sheet. The sheet's tension
-follows from the shears, dN/dx = q_u - q_l, and its strain is e = a N + b p with
-a = (1 - nu^2)/(E h) and b = nu (1 + nu)/E. The equations, at each node or per interval towards the
+follows from the shears, dN/ds = q_u - q_l and what the curvature of its path adds
+(`rollnip.sheet.tension`), and its strain is e = a N + b p with a = (1 - nu^2)/(E h) and
+b = nu (1 + nu)/E. The equations, at each node or per interval towards the
 leading edge, are
 
     gap          = clearance - delta + u_z,u + u_z,l + squeeze p + b N          = 0 in contact
@@ -39,6 +40,7 @@ from rollnip.sheet.membrane.matrices import (
     influence_matrix,
     stabilised_tension,
 )
+from rollnip.sheet.tension import KnownTension
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -152,12 +154,14 @@ class MembraneTerms:
     offsets : (2, n) added to the creep of the upper and the lower interface [mm].
     traction : prescribed T_l, or T_l that gives the prescribed torque [N/mm]; None for prescribed
         creepage.
+    known : the tension of the sheet without int (q_u - q_l) ds.
     lean : part of the line load that is carried by the shears instead of the pressure [N/mm].
     """
 
     clearance: Array
     offsets: Array
     traction: float | None
+    known: KnownTension
     lean: float = 0.0
 
 
@@ -247,6 +251,11 @@ class MembraneProblem:
         """Return the mesh of each interface; both are the same."""
         return self.mesh, self.mesh
 
+    @property
+    def knows_path(self) -> bool:
+        """Whether the curvature of the sheet's path is known: as above, or of a rigid roller."""
+        return self.has_path or self.nip.upper.is_rigid or self.nip.lower.is_rigid
+
     @cached_property
     def path(self) -> SheetPath:
         """Operator for the path of the sheet on this mesh."""
@@ -254,22 +263,21 @@ class MembraneProblem:
 
     def constant_terms(self, lagged: MembraneTerms) -> Array:
         """Return the parts of gaps and creeps that do not depend on the unknowns, (3, n) [mm]."""
-        sheet, pulled = self.sheet, self.sheet.tension_in
-        stretch = sheet.stretch_by_tension * pulled * self.dx
-        gap = 0.5 * self.nip.curvature * self.mesh.inner**2 + lagged.clearance
-        gap += sheet.stretch_by_pressure * pulled
+        sheet, mesh, known = self.sheet, self.mesh, lagged.known
+        stretch = sheet.stretch_by_tension * known.over(mesh.nodes[1:])
+        gap = 0.5 * self.nip.curvature * mesh.inner**2 + lagged.clearance
+        gap += sheet.stretch_by_pressure * known.at(mesh.inner)
         return np.stack([gap, lagged.offsets[0] - stretch, lagged.offsets[1] + stretch])
 
-    def tension_at(self, state: MembraneState) -> Array:
+    def tension_at(self, state: MembraneState, known: KnownTension) -> Array:
         """Return the tension of the sheet at ``mesh.inner``, (n,) [N/mm]."""
         pulled = self.tension @ (state.shear - state.shear_lower)
-        return np.asarray(self.sheet.tension_in - pulled)
+        return np.asarray(known.at(self.mesh.inner) - pulled)
 
-    def strain_over(self, state: MembraneState) -> Array:
+    def strain_over(self, state: MembraneState, known: KnownTension) -> Array:
         """Return int e dx over each interval, (n,) [mm]."""
-        tension = self.sheet.tension_in * self.dx - self.tension_over @ (
-            state.shear - state.shear_lower
-        )
+        tension = known.over(self.mesh.nodes[1:])
+        tension -= self.tension_over @ (state.shear - state.shear_lower)
         pressed = self.sheet.stretch_by_pressure * (self.pressure_over @ state.pressure)
         return np.asarray(self.sheet.stretch_by_tension * tension + pressed)
 
@@ -289,7 +297,11 @@ class MembraneProblem:
 
     def shear_forces(self, state: MembraneState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        return np.asarray(-np.diff(self.tension @ state.shears[side]))
+        return self.forces(state.shears[side])
+
+    def forces(self, traction: Array) -> Array:
+        """Return int t ds over all intervals but the last, (n - 1,) [N/mm]."""
+        return np.asarray(-np.diff(self.tension @ traction))
 
     def displacements(self, state: MembraneState, _: int = 0) -> Displacements:
         """Return the displacements of both rollers at nodes[1:]."""

@@ -5,14 +5,15 @@ x -+ (h/2) y', where y(x) is its path, and the tension N varies along the nip. E
 and moments on an element then gives the load on the plate (`rollnip.sheet.plate.bending`)
 
     w = p_l - p_u - (h/2) d(q_u + q_l)/dx + dc/dx + f,
-    c = (N - N_o) y' + (h/2) y' (p_u + p_l),    f = -d(N - N_o)/dx y',
+    c = (N - N_o) y' + (h/2) y' (p_u + p_l),    f = -(q_u - q_l - dN_o/dx) y',
 
-where N_o varies linearly from the tension at the outlet to that at the inlet. The couple c and the
-force f are lagged. The plate is solved with the mean of both tensions; the difference of N_o from
-it is neglected. A face lies h/2 sqrt(1 + y'^2) above or below the path at its own abscissa, so each
-gap is smaller by (h/4) y'^2. Bending stretches the faces as the direction of the path changes, by
--+ (h/2) d(sin theta), tan theta = y'. All of this is neglected where tension rather than stiffness
-spreads the pressures on the sheet.
+where f has the shears themselves, and N includes what the curvature adds to it
+(`rollnip.sheet.tension`). N_o varies linearly from the tension at the outlet to that at the inlet.
+The couple c and the force f are lagged. The plate is solved with the mean of both tensions; the
+difference of N_o from it is neglected. A face lies h/2 sqrt(1 + y'^2) above or below the path at
+its own abscissa, so each gap is smaller by (h/4) y'^2. Bending stretches the faces as the direction
+of the path changes, by -+ (h/2) d(sin theta), tan theta = y'. All of this is neglected where
+tension rather than stiffness spreads the pressures on the sheet.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from rollnip.sheet.plate.loads import PiecewiseLoads
 
 if TYPE_CHECKING:
     from rollnip.sheet.plate.system import PlateProblem, PlateState
+    from rollnip.sheet.tension import KnownTension
 
 Array = NDArray[np.float64]
 
@@ -98,7 +100,7 @@ def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:
     return turned if curved is None else np.asarray(turned / np.sqrt(1.0 + turned**2))
 
 
-def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
+def is_stiff(problem: PlateProblem, state: PlateState, known: KnownTension, x: Array) -> bool:
     """Return whether stiffness rather than tension spreads the pressures on the sheet.
 
     A couple of N times the slope bends a wave of length 2 pi l by N l^2/(D + N_o l^2 + k l^4) of
@@ -111,7 +113,8 @@ def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
     length = bending_length(problem.nip)
     if length < COUNTED * float(np.ptp(x)):
         return False
-    pulled = problem.plate.tension + float(np.max(np.abs(_tension_left_out(problem, state, x))))
+    left_out = _tension_left_out(problem, state, known, x)
+    pulled = problem.plate.tension + float(np.max(np.abs(left_out)))
     return pulled * length**2 < problem.sheet.bending_stiffness
 
 
@@ -120,24 +123,29 @@ def places_along(problem: PlateProblem) -> Array:
     return np.unique(problem.places)
 
 
-def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array) -> CurvedLoad:
+def curved_load(
+    problem: PlateProblem, state: PlateState, known: KnownTension, x: Array, slope: Array
+) -> CurvedLoad:
     """Return the load on a plate whose path has the given slope at given places, each (m,)."""
     sheet, plate = problem.sheet, problem.plate
     sheared = np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
         sheared += SIGNS[side] * (values_at(mesh, x) @ state.shear[side])
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
-    couple = slope * _tension_left_out(problem, state, x)
+    couple = slope * _tension_left_out(problem, state, known, x)
     parts = couple[:, None], (-slope * (sheared - rise))[:, None]
     first, second = (PiecewiseLoads.of_lines(x, part, sheet, plate) for part in parts)
     return CurvedLoad.of(first, second, x)
 
 
-def _tension_left_out(problem: PlateProblem, state: PlateState, x: Array) -> Array:
+def _tension_left_out(
+    problem: PlateProblem, state: PlateState, known: KnownTension, x: Array
+) -> Array:
     """Return N - N_o + (h/2) (p_u + p_l) at given places, (m,) [N/mm]."""
     sheet, pressed = problem.sheet, np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
         pressed += values_at(mesh, x) @ state.pressure[side]
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     outside = sheet.tension_out + rise * (x - x[0])
-    return np.asarray(problem.tension_at(state, x) - outside + 0.5 * sheet.thickness * pressed)
+    pulled = problem.tension_at(state, known, x) - outside
+    return np.asarray(pulled + 0.5 * sheet.thickness * pressed)

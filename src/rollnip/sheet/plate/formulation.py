@@ -14,11 +14,11 @@ from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
-from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import SIGNS, interface_peak
 from rollnip.sheet.plate.iterate import PlateIterate, overlap
 from rollnip.sheet.plate.lagged_terms import (
     change_of_terms,
+    face_levers,
     lagged_terms,
     pull_of,
     residual_with_terms,
@@ -65,7 +65,8 @@ class PlateFormulation:
         """Return figures with width and pressure of the upper interface, and of the lower one."""
         problem, state = iterate.problem, iterate.state
         x = _turning_places(problem, state)
-        tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
+        known = iterate.lagged.known
+        tension, strain = problem.tension_at(state, known, x), problem.strain_at(state, known, x)
         pulls = self.pulls(iterate, geometry)
         upper = SheetFigures.of(
             iterate,
@@ -116,7 +117,8 @@ class PlateFormulation:
 def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     """Return the fine nodes of both meshes and the extrema of the tension between them, (m,) [mm].
 
-    Between these nodes the slope of the tension, q_u - q_l, is linear.
+    Between these nodes the slope of the tension, q_u - q_l, is linear but for what the curvature of
+    the path adds.
     """
     x = np.unique(np.concatenate([one.nodes for one in problem.path_shears]))
     upper, lower = (
@@ -136,13 +138,8 @@ def _into_sheet(iterate: PlateIterate) -> float:
     of second order.
     """
     problem, state = iterate.problem, iterate.state
-    rate, taken = sheet_rate(*state.creepages), 0.0
-    curved = iterate.lagged.curved
-    rotations = problem.rotations(state, curved)
-    for side, mesh in enumerate(problem.meshes):
-        pushed, sign = problem.shear_forces(state, side), SIGNS[side]
-        strained = problem.strain_over(state, side)[:-1]
-        turned = np.diff(direction_of(rotations[side][:-1], curved))
-        face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
-        taken += sign * float(pushed @ (1.0 + face))
-    return rate * taken
+    taken, lagged = 0.0, iterate.lagged
+    for side, face in enumerate(face_levers(problem, state, lagged.curved)):
+        strain = (problem.strain_over(state, lagged.known, side) / problem.meshes[side].dx)[:-1]
+        taken += SIGNS[side] * float(face.forces @ (1.0 + strain)) - face.lost
+    return sheet_rate(*state.creepages) * taken

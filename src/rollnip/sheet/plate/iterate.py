@@ -90,7 +90,7 @@ def gap_at(
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
     gap = (
         surface_depths(x, problem.nip, model[1], u)[side]
-        + problem.face_indentations_at(state, x)[side]
+        + problem.face_indentations_at(state, iterate.lagged.known, x)[side]
     )
     gap -= SIGNS[side] * problem.height_at(state, x, curved)
     if curved is not None:

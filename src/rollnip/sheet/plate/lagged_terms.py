@@ -22,9 +22,16 @@ from rollnip.sheet.lagged_terms import (
     sheet_rate,
     traction_for_torque,
 )
-from rollnip.sheet.plate.curved_path import CurvedLoad, curved_load, is_stiff, places_along
+from rollnip.sheet.plate.curved_path import (
+    CurvedLoad,
+    curved_load,
+    direction_of,
+    is_stiff,
+    places_along,
+)
 from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
+from rollnip.sheet.tension import FaceLevers, KnownTension
 
 Array = NDArray[np.float64]
 
@@ -32,9 +39,9 @@ Array = NDArray[np.float64]
 def initial_terms(problem: PlateProblem) -> PlateTerms:
     """Return zero terms and the prescribed traction; zero traction where a torque is prescribed."""
     n, m = (mesh.inner.size for mesh in problem.meshes)
-    return PlateTerms(
-        (np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), initial_traction(problem.nip)
-    )
+    clearance, offsets = (np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m))
+    known = KnownTension.on_straight_path(problem.sheet)
+    return PlateTerms(clearance, offsets, initial_traction(problem.nip), known)
 
 
 def lagged_terms(
@@ -52,8 +59,11 @@ def lagged_terms(
         return first
     clearance, offsets, leans = [], [], []
     old = None if before is None else before.curved
-    path = places_along(problem)
-    is_curved = geometry in FINITE and is_stiff(problem, state, path)
+    path, known = places_along(problem), first.known
+    if geometry != "linear":
+        faces = face_levers(problem, state, old)
+        known = KnownTension.after(problem.sheet, faces, bends=True)
+    is_curved = geometry in FINITE and is_stiff(problem, state, known, path)
     slopes = problem.rotations(state, old) if is_curved else None
     bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
@@ -61,7 +71,7 @@ def lagged_terms(
         flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
         u = mesh.with_second(flat, state.side(side))
         clearance.append(_clearance(problem, geometry, side, flat, u))
-        offsets.append(_offsets(problem, geometry, state, side, (flat, u)))
+        offsets.append(_offsets(problem, geometry, (state, known), side, (flat, u)))
         leans.append(_lean(problem, state, side, u) if geometry in FINITE else 0.0)
         if slopes is None:
             continue
@@ -78,10 +88,10 @@ def lagged_terms(
         traction = traction_for_torque(problem, geometry, state, pull)
     both = (clearance[0], clearance[1]), (offsets[0], offsets[1])
     if slopes is None:
-        return PlateTerms(*both, traction, 0.5 * sum(leans))
+        return PlateTerms(*both, traction, known, 0.5 * sum(leans))
     slope = np.concatenate(slopes)[np.unique(problem.places, return_index=True)[1]]
-    curved = curved_load(problem, state, path, slope)
-    return PlateTerms(*both, traction, 0.5 * (sum(leans) + curved.total), curved)
+    curved = curved_load(problem, state, known, path, slope)
+    return PlateTerms(*both, traction, known, 0.5 * (sum(leans) + curved.total), curved)
 
 
 def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
@@ -116,11 +126,14 @@ def change_of_terms(
 def _curved_change(
     new: PlateTerms, old: PlateTerms, problem: PlateProblem, state: PlateState
 ) -> float:
-    """Return the change of the couples and forces of a curved path, over the load."""
-    if new.curved is None or old.curved is None:
-        return 0.0
+    """Return the change of tension, couples and forces due to the curved path, over the load."""
     load = float(problem.meshes[0].weights @ state.pressure[0])
-    return new.curved.change_from(old.curved, load) if load > 0.0 else 0.0
+    if not load > 0.0:
+        return 0.0
+    change = new.known.change_from(old.known) / load
+    if new.curved is None or old.curved is None:
+        return change
+    return max(change, new.curved.change_from(old.curved, load))
 
 
 def residual_with_terms(
@@ -169,10 +182,26 @@ def _clearance(
     return np.asarray(depth - 0.5 * curvatures(problem.nip)[side] * mesh.inner**2 - moved)
 
 
+def face_levers(
+    problem: PlateProblem, state: PlateState, curved: CurvedLoad | None
+) -> tuple[FaceLevers, FaceLevers]:
+    """Return the forces on both faces, and the levers of the shears.
+
+    ``curved``: the load due to its path that the solution was found with.
+    """
+    out, half = [], 0.5 * problem.sheet.thickness
+    for side, turned in enumerate(problem.rotations(state, curved)):
+        mesh = problem.meshes[side]
+        ratios = half * np.diff(direction_of(turned[:-1], curved)) / mesh.dx[:-1]
+        pushed, pressed = (problem.forces(t[side], side) for t in (state.shear, state.pressure))
+        out.append(FaceLevers(mesh.inner, pushed, pressed, ratios))
+    return out[0], out[1]
+
+
 def _offsets(
     problem: PlateProblem,
     geometry: Geometry,
-    state: PlateState,
+    found: tuple[PlateState, KnownTension],
     side: int,
     displacements: tuple[Displacements, Displacements],
 ) -> Array:
@@ -184,14 +213,14 @@ def _offsets(
     nip, mesh = problem.nip, problem.meshes[side]
     if geometry == "linear":
         return np.zeros(mesh.inner.size)
-    flat, u = displacements
+    (state, known), (flat, u) = found, displacements
     x = mesh.fine.nodes[1:]
     hoops = np.array(mesh.kernels.hoops)[:, None]
     excess = stretch_excess(x, nip, geometry, mesh.finer(u))[side]
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)[side]
     sign, half = SIGNS[side], 0.5 * state.creepage
     rate = sheet_rate(*state.creepages)
-    strained = (rate - 1.0) * problem.creep_by_sheet(state, side, flat)
+    strained = (rate - 1.0) * problem.creep_by_sheet(state, known, side, flat)
     return np.asarray(sign * mesh.sums((1.0 + sign * half) * excess - linear) + strained)
 
 

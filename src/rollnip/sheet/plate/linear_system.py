@@ -115,12 +115,12 @@ def equations(problem: PlateProblem) -> Array:
 
 def constant_terms(problem: PlateProblem, lagged: PlateTerms) -> Array:
     """Return the parts of the rows of `equations` that do not depend on the unknowns."""
-    nip, sheet = problem.nip, problem.sheet
+    nip = problem.nip
     normal, tangential = nip.normal, nip.tangential
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
     assert last is not None
-    pulled, curved = sheet.tension_in - sheet.tension_out, lagged.curved
+    pulled, curved = lagged.known.change, lagged.curved
     force, moment = (0.0, 0.0) if curved is None else (curved.total, curved.moment)
     return np.concatenate([problem.constant_terms(lagged), [-load, force, moment, -pulled, -last]])
 

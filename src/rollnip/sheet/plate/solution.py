@@ -24,10 +24,12 @@ from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import SIGNS, values_at
 from rollnip.sheet.plate.iterate import PlateIterate
+from rollnip.sheet.plate.lagged_terms import face_levers
 from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
+from rollnip.sheet.tension import FaceLevers
 
 Array = NDArray[np.float64]
 
@@ -103,7 +105,7 @@ class PlateSolution(SheetSolution):
             x,
             self._on_lower(x, lower.shear),
             self._tension(x),
-            iterate.problem.strain_at(iterate.state, x),
+            iterate.problem.strain_at(iterate.state, iterate.lagged.known, x),
             self._slip(1),
             self._on_lower(x, lower.pressure),
             self._height,
@@ -144,7 +146,7 @@ class PlateSolution(SheetSolution):
 
     def _tension(self, x: Array) -> Array:
         iterate = self._iterate
-        return iterate.problem.tension_at(iterate.state, x)
+        return iterate.problem.tension_at(iterate.state, iterate.lagged.known, x)
 
     @cached_property
     def _height(self) -> Array:
@@ -155,7 +157,8 @@ class PlateSolution(SheetSolution):
     @cached_property
     def _thinned_faces(self) -> Array:
         iterate = self._iterate
-        return iterate.problem.face_indentations_at(iterate.state, self._points[0])
+        known = iterate.lagged.known
+        return iterate.problem.face_indentations_at(iterate.state, known, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
@@ -174,6 +177,13 @@ class PlateSolution(SheetSolution):
             four.append(rows)
         return x, Displacements(np.concatenate(four))
 
+    @property
+    def _levers(self) -> tuple[FaceLevers, FaceLevers] | None:
+        iterate = self._iterate
+        if self.model.geometry == "linear":
+            return None
+        return face_levers(iterate.problem, iterate.state, iterate.lagged.curved)
+
     def _sliding(self) -> tuple[Array, Array]:
         iterate, state = self._iterate, self._iterate.state
         (mu_u, mu_l), (above, below) = iterate.problem.frictions, state.pressure
@@ -190,7 +200,7 @@ class PlateSolution(SheetSolution):
         iterate = self._iterate
         dx, problem, state = np.diff(x), iterate.problem, iterate.state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
-        strain = problem.strain_at(state, x)
+        strain = problem.strain_at(state, iterate.lagged.known, x)
         face = 0.5 * (strain[1:] + strain[:-1])
         curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
         turned = direction_of(problem.rotation_at(state, x, curved), curved)

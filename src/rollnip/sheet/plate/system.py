@@ -39,6 +39,7 @@ from rollnip.sheet.plate.interface import (
 )
 from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 from rollnip.sheet.plate.matrices import Pair, influence_matrices
+from rollnip.sheet.tension import KnownTension
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -98,6 +99,7 @@ class PlateTerms:
     offsets : added to the creeps, each (n,) [mm].
     traction : prescribed T_l, or T_l that gives the prescribed torque [N/mm]; None for prescribed
         creepage.
+    known : the tension of the sheet without int (q_u - q_l) ds.
     lean : part of the line load that is carried by the shears instead of the pressure [N/mm].
     curved : load on the sheet due to its curved path; None where it is neglected.
     """
@@ -105,6 +107,7 @@ class PlateTerms:
     clearance: Pair
     offsets: Pair
     traction: float | None
+    known: KnownTension
     lean: float = 0.0
     curved: CurvedLoad | None = None
 
@@ -173,7 +176,7 @@ class PlateProblem:
 
     def constant_terms(self, lagged: PlateTerms) -> Array:
         """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
-        sheet, pulled = self.sheet, self.sheet.tension_in
+        sheet, known = self.sheet, lagged.known
         out, half = [], 0.5 * sheet.thickness
         for side, (mesh, curvature) in enumerate(
             zip(self.meshes, curvatures(self.nip), strict=True)
@@ -184,8 +187,8 @@ class PlateProblem:
                 height, turned = lagged.curved.deflection_at(mesh.nodes[1:])
                 gap = gap - SIGNS[side] * height[:-1]
                 creep = creep + half * np.diff(turned)
-            out.append(gap + 0.5 * sheet.stretch_by_pressure * pulled)
-            stretch = SIGNS[side] * sheet.stretch_by_tension * pulled * mesh.dx
+            out.append(gap + 0.5 * sheet.stretch_by_pressure * known.at(mesh.inner))
+            stretch = SIGNS[side] * sheet.stretch_by_tension * known.over(mesh.nodes[1:])
             out.append(creep - stretch)
         return np.concatenate(out)
 
@@ -210,9 +213,12 @@ class PlateProblem:
 
     def shear_forces(self, state: PlateState, side: int) -> Array:
         """Return int q ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
+        return self.forces(state.shear[side], side)
+
+    def forces(self, traction: Array, side: int) -> Array:
+        """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
         one, mesh = self.path_shears[side], self.meshes[side]
-        beyond = one.of(state.shear[side]).tail_moments_at(mesh.inner)[0, :, 0]
-        return np.asarray(-np.diff(beyond))
+        return np.asarray(-np.diff(one.of(traction).tail_moments_at(mesh.inner)[0, :, 0]))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
         """Return the displacements of one roller at nodes[1:] of its interface."""
@@ -220,13 +226,13 @@ class PlateProblem:
         flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
         return mesh.with_second(flat, state.side(side))
 
-    def tension_at(self, state: PlateState, x: Array) -> Array:
+    def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
             one.of(shear).tail_moments_at(x)[0, :, 0]
             for one, shear in zip(self.path_shears, state.shear, strict=True)
         )
-        return np.asarray(self.sheet.tension_in - upper + lower)
+        return np.asarray(known.at(x) - upper + lower)
 
     def height_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
         """Return the height of the sheet's middle at given places, (m,) [mm]."""
@@ -265,10 +271,10 @@ class PlateProblem:
             out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
         return out
 
-    def face_indentations_at(self, state: PlateState, x: Array) -> Array:
+    def face_indentations_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
         both = np.tile(x, 2)
-        out = np.full((2, x.size), 0.5 * self.sheet.stretch_by_pressure * self.sheet.tension_in)
+        out = np.tile(0.5 * self.sheet.stretch_by_pressure * known.at(x), (2, 1))
         for side, one in enumerate(self.loads):
             far = np.repeat(np.arange(2) != side, x.size)
             pulled = self.path_shears[side].of(state.shear[side])
@@ -277,15 +283,17 @@ class PlateProblem:
             out += made.reshape(2, x.size)
         return out
 
-    def strain_at(self, state: PlateState, x: Array) -> Array:
+    def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the strain of the sheet's middle at given places, (m,)."""
         pressed = sum(
             values_at(mesh, x) @ p for mesh, p in zip(self.meshes, state.pressure, strict=True)
         )
-        strain = self.sheet.stretch_by_tension * self.tension_at(state, x)
+        strain = self.sheet.stretch_by_tension * self.tension_at(state, known, x)
         return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
 
-    def creep_by_sheet(self, state: PlateState, side: int, flat: Displacements) -> Array:
+    def creep_by_sheet(
+        self, state: PlateState, known: KnownTension, side: int, flat: Displacements
+    ) -> Array:
         """Return the part of one interface's creep due to the sheet's strain, (n,) [mm].
 
         ``flat``: the linear displacements of its roller at nodes[1:].
@@ -293,15 +301,15 @@ class PlateProblem:
         mesh, sheet = self.meshes[side], self.sheet
         rows = slice(self.starts[2 * side + 1], self.starts[2 * side + 2])
         roller = stretch_by(mesh, side, flat.four[2 * side], flat.four[2 * side + 1])
-        pulled = sheet.stretch_by_tension * sheet.tension_in * mesh.dx
+        pulled = sheet.stretch_by_tension * known.over(mesh.nodes[1:])
         return np.asarray(self.matrix[rows] @ state.tractions - SIGNS[side] * (roller + pulled))
 
-    def strain_over(self, state: PlateState, side: int) -> Array:
+    def strain_over(self, state: PlateState, known: KnownTension, side: int) -> Array:
         """Return int e dx of the sheet's middle over the intervals of one interface, (n,) [mm]."""
         mesh, sheet = self.meshes[side], self.sheet
-        tension = sheet.tension_in * mesh.dx
         pressed = np.zeros(mesh.dx.size)
         x = mesh.nodes[1:]
+        tension = known.over(x)
         for number, one in enumerate(self.loads):
             pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
             tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])

@@ -260,5 +260,21 @@ def test_error_of_cubics_is_that_of_a_quartic(elements):
         values.extend(values[-1] + np.arange(1, n + 1) ** 4.0)
     nodes = 0.5 * np.arange(len(values))
     expected = 0.5 * sum(n - 3 for n in elements) * 24.0 * 3.0 / 128.0
-    assert cubic_error(np.array(values), nodes, elements) == pytest.approx(expected)
-    assert cubic_error(np.arange(9.0) ** 3, np.arange(9.0), (8,)) < 1e-12
+    even = (1.0,) * len(elements)
+    assert cubic_error(np.array(values), nodes, elements, even) == pytest.approx(expected)
+    assert cubic_error(np.arange(9.0) ** 3, np.arange(9.0), (8,), (1.0,)) < 1e-12
+
+
+def test_an_error_in_a_boundary_layer_counts_more_than_one_in_the_middle():
+    """By the root of the zone over the distance, but no more than at the crowding."""
+    nodes, r = np.linspace(0.0, 1.0, 101), 0.04
+
+    def counted(place):
+        values = np.zeros(nodes.size)
+        values[place] = 1.0  # fourth differences of 1, 4, 6, 4, 1 around it
+        even, crowded = (cubic_error(values, nodes, (100,), (ratio,)) for ratio in (1.0, r))
+        return crowded / even
+
+    for place, expected in ((50, 0.5**-0.5), (20, 0.2**-0.5), (80, 0.2**-0.5)):
+        assert counted(place) == pytest.approx(expected, rel=0.01)
+    assert counted(2) == pytest.approx(r**-0.5)

@@ -169,25 +169,37 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     return out
 
 
-def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float:
+def cubic_error(
+    values: Array, nodes: Array, elements: tuple[int, ...], crowding: tuple[float, ...]
+) -> float:
     """Return the estimated error of cubic interpolation between nodes, integrated over x.
 
     Between the middle two of four points the error is 3/128 of the fourth difference, which takes
     five points. Integrated, an error counts in proportion to the length of its element, so little
-    in the short elements beside an edge.
+    in the short elements beside an edge. In a zone whose nodes crowd, boundary layers matter more
+    than their length says: at the share y of the zone from its nearer end, but not nearer than its
+    crowding r, an error counts 1/sqrt(y) times.
 
     Parameters
     ----------
     values : (sum of elements + 1,) at the nodes from the first break to the last.
     nodes : their places [mm].
-    elements : in each zone.
+    elements, crowding : of each zone.
     """
     fourth = np.abs(
         values[4:] - 4.0 * (values[3:-1] + values[1:-3]) + 6.0 * values[2:-2] + values[:-4]
     )
-    for end in accumulate(elements[:-1]):
+    ends = [0, *accumulate(elements)]
+    for end in ends[1:-1]:
         fourth[end - 3 : end] = 0.0  # values are not smooth across a break
-    return float(3.0 / 128.0 * fourth @ (0.5 * (nodes[3:-1] - nodes[1:-3])))
+    counted = np.ones(nodes.size)
+    for (start, stop), ratio in zip(pairwise(ends), crowding, strict=True):
+        if ratio < 1.0:
+            zone = nodes[start : stop + 1]
+            nearer = np.minimum(zone - zone[0], zone[-1] - zone) / (zone[-1] - zone[0])
+            counted[start : stop + 1] = 1.0 / np.sqrt(np.maximum(nearer, ratio))
+    lengths = 0.5 * (nodes[3:-1] - nodes[1:-3]) * counted[2:-2]
+    return float(3.0 / 128.0 * fourth @ lengths)
 
 
 @lru_cache(maxsize=8)  # meshes of one size that differ only in the places of their breaks share it

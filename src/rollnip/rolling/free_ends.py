@@ -157,14 +157,13 @@ def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
 
     Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong.
     """
-    elements, x = latest.mesh.fine.elements, latest.mesh.inner
+    x, zones = latest.mesh.inner, (latest.mesh.fine.elements, latest.mesh.fine.crowding)
     pressure, shear = latest.state.pressure, latest.state.shear
-    # Where nodes crowd, the boundary layers weigh more than their share of the width.
-    width = float(x[-1] - x[0]) * sqrt(min(latest.mesh.fine.crowding))
+    width = float(x[-1] - x[0])
     peak = float(np.max(pressure))
     little = model.tolerance * nip.friction * peak  # shear below this is negligible
     most = max(float(np.max(np.abs(shear))), little)
-    errors = [cubic_error(pressure, x, elements) / (peak * width)]
+    errors = [cubic_error(pressure, x, *zones) / (peak * width)]
     if most > 0.0:
-        errors.append(cubic_error(shear, x, elements) / (most * width))
+        errors.append(cubic_error(shear, x, *zones) / (most * width))
     return largest(*errors) / (NEGLIGIBLE * model.tolerance)

@@ -37,8 +37,9 @@ NIPS = {
 def test_the_axles_lose_what_the_tensions_and_the_heat_take(name, geometry, bending):
     """P - heat = V_s [N + a N^2/2] from the outlet to the inlet, to 5e-4 of the largest part.
 
-    The mesh leaves up to 3e-4 of it, and pressure times strain, which is neglected, 1e-4. Without
-    the levers of the shears it was up to 1.8 % for the membranes and 0.5 % for the plates.
+    The mesh leaves up to 3e-4 of it, and pressure times strain, which is neglected, 1.3e-4; what
+    the shears do to the sheet has only the latter. Without their levers both differ by 3e-4 at
+    least, by 1.8 % at most for the membranes and 0.3 % for the plates.
     """
     nip = NIPS[name]
     nip = replace(nip, speed=100.0, sheet=replace(nip.sheet, bending=bending))
@@ -55,6 +56,7 @@ def test_the_axles_lose_what_the_tensions_and_the_heat_take(name, geometry, bend
     passed = nip.speed * max(abs(found.traction_upper), abs(solution.traction))
     largest = max(abs(solution.power_in), heat, abs(inlet - outlet), passed)
     assert solution.power_in - heat == pytest.approx(inlet - outlet, abs=5e-4 * largest)
+    assert found.power == pytest.approx(inlet - outlet, abs=2e-4 * largest)
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
@@ -116,7 +118,7 @@ def test_a_small_grip_is_left_where_a_side_slides_nearly_all_over(bending):
     grip = rn.solve(nip, rn.Model(geometry="curved")).sheet.grip
     assert grip.first == "upper"
     if not bending:
-        lever = 1.0 + 0.5 * sheet.thickness / RIGID.radius
+        lever = 1.0 + 0.5 * sheet.thickness / (RIGID.radius + 0.5 * sheet.thickness)
         assert grip.largest == pytest.approx(0.3 * lever, rel=1e-6)
         assert grip.smallest == pytest.approx(-0.3 * lever, rel=1e-6)
     assert grip.reserve == pytest.approx((1.0 - grip.use_upper) * 0.3, rel=0.02)

@@ -153,9 +153,11 @@ def simpler_geometry_reservations(
     return instead_of(causes, geometry)
 
 
-def compression_reservations(figures: SheetFigures) -> tuple[Reservation, ...]:
-    """Return a reservation where the sheet is under compression in the nip."""
-    if not figures.tension_min < -SLACK * figures.load:
+def compression_reservations(
+    figures: SheetFigures, errors: SheetFigures
+) -> tuple[Reservation, ...]:
+    """Return a reservation where the sheet is under compression in the nip, beyond the error."""
+    if not figures.tension_min < -max(SLACK * figures.load, errors.tension_min):
         return ()
     return (
         Reservation(

@@ -185,7 +185,7 @@ def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservat
     length = spreading_length(nip)
     share = length / refined.figures.nip_width
     if not share > STIFF:
-        return compression_reservations(refined.figures)
+        return compression_reservations(refined.figures, refined.errors)
     assert nip.sheet is not None
     freely = Reservation(
         "bends_freely",
@@ -200,7 +200,7 @@ def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservat
         },
         excess=share / STIFF,
     )
-    return (*compression_reservations(refined.figures), freely)
+    return (*compression_reservations(refined.figures, refined.errors), freely)
 
 
 def _how_far_off(share: float) -> str:

@@ -1,9 +1,9 @@
 """The part of a sheet's tension that does not follow from the shears of the same solution.
 
 The shears act on the faces of a sheet, at h/2 from its middle. On a path of curvature kappa (centre
-on the upper side positive) this lever counts. With the forces dF_u = q_u ds and dF_l = q_l ds on
-the faces, the tension N along the path, the force Q across it and the bending moment M, an element
-of the sheet is in equilibrium along the path, and about its middle, if
+on the upper side positive) this lever counts. With the forces dF_u and dF_l of the shears on the
+faces, q times the length of the face, the tension N along the path, the force Q across it and the
+bending moment M, an element of the sheet is in equilibrium along the path, and about its middle, if
 
     dN = dF_u - dF_l + kappa Q ds,    Q ds = -(h/2) (dF_u + dF_l) - dM,
 
@@ -11,11 +11,12 @@ where s is the length of the middle. So the tension grows by
 
     dN = dF_u (1 - h kappa/2) - dF_l (1 + h kappa/2) - kappa dM.
 
-The faces run at V_s (1 + e) (1 -+ h kappa/2), so the power of the shears on them is V_s (1 + e) dN,
-as it must be. A belt on a pulley of radius R is an example: kappa = -1/(R + h/2), and
-dN (R + h/2) = -dF_l R is the balance of moments about the axis. The bending moment is D kappa with
-the bending stiffness D, so the last term is the change of -D kappa^2/2, which is zero far away on
-both sides, where N has its given values. A sheet that bends freely is without it.
+The faces run at V_s (1 + e) (1 -+ h kappa/2), so the power of the shears on them is
+V_s (1 + e) (dN + kappa dM), the work against tension and bending moment. A belt on a pulley of
+radius R is an example: kappa = -1/(R + h/2), and dN (R + h/2) = -dF_l R is the balance of moments
+about the axis. The bending moment is D kappa with the bending stiffness D, so the last term is the
+change of -D kappa^2/2, which is zero far away on both sides, where N has its given values. A sheet
+that bends freely is without it.
 
 What the curvature adds to N in this way is evaluated from the previous iterate. `linear` neglects
 it, as products of shears and curvatures.
@@ -75,29 +76,30 @@ class KnownTension:
 
     Attributes
     ----------
-    inlet, outlet : tension on both sides of the nip [N/mm].
+    inlet : tension on the inlet side of the nip [N/mm].
     places : (m,) in ascending order [mm].
     added : (m,) what the curvature of the path adds there [N/mm].
     change : int (q_u - q_l) ds that leads from the outlet to the inlet [N/mm].
     """
 
     inlet: float
-    outlet: float
     places: Array
     added: Array
     change: float
 
     @classmethod
     def on_straight_path(cls, sheet: Sheet) -> KnownTension:
-        """Return it for a path without curvature."""
-        inlet, outlet = sheet.tension_in, sheet.tension_out
-        return cls(inlet, outlet, np.zeros(1), np.zeros(1), inlet - outlet)
+        """Return the known tension for a path without curvature."""
+        inlet, pull = sheet.tension_in, sheet.tension_in - sheet.tension_out
+        return cls(inlet, np.zeros(1), np.zeros(1), pull)
 
     @classmethod
     def after(
         cls, sheet: Sheet, faces: tuple[FaceLevers, FaceLevers], *, bends: bool
     ) -> KnownTension:
-        """Return it for the levers in an earlier solution; linear between the places of both faces.
+        """Return the known tension for the levers in an earlier solution.
+
+        It is linear between the places of both faces.
 
         ``bends``: whether a bending moment goes with the curvature.
         """
@@ -109,19 +111,19 @@ class KnownTension:
             # between the edges of the wider contact alone, that contact knows the curvature
             ratio = np.where(on_lower, np.where(on_upper, 0.5 * (upper + lower), lower), upper)
             added -= ratio**2 / (6.0 * sheet.stretch_by_tension)
-        inlet, outlet = sheet.tension_in, sheet.tension_out
-        return cls(inlet, outlet, places, added, inlet - outlet + faces[0].lost + faces[1].lost)
+        inlet, pull = sheet.tension_in, sheet.tension_in - sheet.tension_out
+        return cls(inlet, places, added, pull + faces[0].lost + faces[1].lost)
 
     def change_from(self, old: KnownTension) -> float:
         """Return the largest change since an older one [N/mm]."""
         return float(np.abs(self.added - np.interp(self.places, old.places, old.added)).max())
 
     def at(self, x: Array) -> Array:
-        """Return it at given places, (m,) [N/mm]."""
+        """Return the known tension at given places, (m,) [N/mm]."""
         return np.asarray(self.inlet + np.interp(x, self.places, self.added))
 
     def over(self, x: Array) -> Array:
-        """Return its integral from each of m places to the next one, (m - 1,) [N]."""
+        """Return the integral of the known tension from each of m places to the next one [N]."""
         every = np.unique(np.concatenate([x, self.places]))
         added = np.interp(every, self.places, self.added)
         along = np.append(0.0, np.cumsum(0.5 * np.diff(every) * (added[1:] + added[:-1])))

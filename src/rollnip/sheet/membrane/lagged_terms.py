@@ -120,11 +120,13 @@ def path_slope_changes(problem: MembraneProblem, u: Displacements) -> Array:
 
     The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2.
     Its curvature d^2y/dx^2 is positive where the centre of curvature is on the upper side. On a
-    bare rigid roller the sheet has the curvature of that roller. ``u``: displacements at nodes[1:].
+    bare rigid roller the middle lies half a thickness outside that roller, with a radius of R +
+    h/2. ``u``: displacements at nodes[1:].
     """
     nip, mesh = problem.nip, problem.mesh
     if nip.upper.is_rigid or nip.lower.is_rigid:
         own = nip.upper.curvature if nip.upper.is_rigid else -nip.lower.curvature
+        own /= 1.0 + 0.5 * problem.sheet.thickness * abs(own)
         return np.asarray(own * mesh.dx)
     bent = problem.path.slope_changes(u.z_upper - u.z_lower)
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))

@@ -62,8 +62,8 @@ class InitialZones:
 
         Each mesh ends closer to the edges that the previous one found; where edges moved to the end
         of a mesh, the next one keeps the same margin. Where a mesh has no solution, the last zones
-        are returned. ``lagged``: terms of a solution with approximately these zones, whose traction
-        and shear-borne load are used; None: none is known.
+        are returned. ``lagged``: terms of a solution with approximately these zones, of which the
+        traction, the shear-borne load and the known tension are used; None: none is known.
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
@@ -86,7 +86,7 @@ class InitialZones:
         problem = self._problem(zones, margin, elements)
         first = initial_terms(problem)
         if lagged is not None:
-            first = replace(first, traction=lagged.traction, lean=lagged.lean)
+            first = replace(first, traction=lagged.traction, lean=lagged.lean, known=lagged.known)
         return PlateZones.around(problem, self._solve_complementarity(problem, first, zones.edges))
 
     def _solve_complementarity(

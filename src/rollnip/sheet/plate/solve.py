@@ -124,9 +124,8 @@ def _assembled(
     both = final, lower_mesh_solution(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
-    reservations += compression_reservations(refined.figures) + curved_tension_reservations(
-        nip, model
-    )
+    reservations += compression_reservations(refined.figures, refined.errors)
+    reservations += curved_tension_reservations(nip, model)
     reservations += validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(

@@ -12,6 +12,7 @@ from rollnip.contact.mesh import (
     crowding_of,
     cubic_error,
     elements_of_zones,
+    first_count,
     more_elements,
     subdivided,
 )
@@ -50,6 +51,7 @@ __all__ = [
     "crowding_of",
     "cubic_error",
     "elements_of_zones",
+    "first_count",
     "gap",
     "influence_of",
     "interior_point",

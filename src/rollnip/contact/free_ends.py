@@ -33,8 +33,6 @@ from rollnip.contact.problem import (
 )
 
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
-# Stick put between slip both ways takes this share of the shorter slip zone from each of the two.
-_STICK_BETWEEN = 0.1
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
 
 
@@ -58,7 +56,7 @@ class Layout:
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
         """Return the layout of given zones, with free zones in the gaps between them.
 
-        A short stick zone is put between two slip zones of opposite sign, where the surfaces must
+        A stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
         zones = _with_stick_between(zones)
@@ -378,13 +376,16 @@ class Layout:
 
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Return the zones with short stick zones between adjoining slip zones of opposite sign."""
+    """Return the zones with a stick zone wherever slip zones of opposite sign adjoin.
+
+    It takes as much from either of the two as an end may move into the shorter one.
+    """
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]
         slips = STICK not in (before.state, zone.state) and before.state != zone.state
         if slips and before.stop == zone.start:
-            reach = _STICK_BETWEEN * min(before.stop - before.start, zone.stop - zone.start)
+            reach = _LONGEST_MOVE * min(before.stop - before.start, zone.stop - zone.start)
             start, stop = before.stop - reach, zone.start + reach
             out[-1] = replace(before, stop=start)
             out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]

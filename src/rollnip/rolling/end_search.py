@@ -14,6 +14,7 @@ from functools import cached_property
 from rollnip.contact import GivenStates, Layout, elements_of_zones
 from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
+from rollnip.influence.surface import STIFF_SKIN
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
@@ -21,7 +22,6 @@ from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.estimates import length_change_ratio
 from rollnip.rolling.iterations import (
     NEGLIGIBLE,
-    NEGLIGIBLE_UNDER_SKIN,
     change_of,
     held_from,
     solve_on_mesh,
@@ -51,11 +51,12 @@ class ZoneSolver:
     def settled_change(self) -> float:
         """Change of the second-order terms at which iterations stop, over the tolerance.
 
-        It is smaller under a stiff skin, where the pressure beside an edge responds strongly to
-        small changes of the gap.
+        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
+        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
+        accuracy.
         """
         has_skin = has_stiff_skin((self.nip.upper, self.nip.lower))
-        return NEGLIGIBLE_UNDER_SKIN if has_skin else NEGLIGIBLE
+        return NEGLIGIBLE / STIFF_SKIN if has_skin else NEGLIGIBLE
 
     def renewed(self, state: SearchState) -> SearchState:
         """Return the state with the second order evaluated from its last solution.

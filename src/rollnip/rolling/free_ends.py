@@ -12,7 +12,7 @@ from typing import TypeGuard
 import numpy as np
 
 from rollnip._largest import largest
-from rollnip.contact import Layout, cubic_error, more_elements
+from rollnip.contact import Layout, cubic_error, first_count, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
@@ -29,8 +29,6 @@ from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
-_FIRST_COUNT = 18
-_ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; tractions that need more are not smooth
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
 _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
@@ -71,7 +69,7 @@ def with_free_ends(
     when zones come and go or tractions are singular.
     """
     placing = Placing(nip, model, kernels)
-    count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
+    count = max(fewest, first_count(layout.states.size))
     start = SearchState(layout, before, misplacement=misplacement)
     try:
         return _refined(placing, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)

@@ -18,6 +18,11 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Array, Mesh
 
+LEAST_SIZE = 0.05
+"""Least size that an error is relative to, over the largest that its figure may have.
+
+A figure that is zero by symmetry has no relative error.
+"""
 _EQUAL_PEAKS = 1e-4  # relative difference of peaks that agree in the four digits shown
 
 
@@ -242,11 +247,8 @@ def creepage_scale(nip: Nip, figures: Figures) -> float:
 
 
 def scale_of_creepage(creepage: float, slope: float) -> float:
-    """Return |creepage|, or a twentieth of the slope of the gap at the edge if that is more.
-
-    A creepage that is zero by symmetry has no relative error.
-    """
-    return max(0.05 * slope, abs(creepage))  # in this order: max(a, nan) is a
+    """Return |creepage|, or `LEAST_SIZE` of the slope of the gap at the edge if that is more."""
+    return max(LEAST_SIZE * slope, abs(creepage))  # in this order: max(a, nan) is a
 
 
 def has_grip(latest: MeshSolution) -> bool:

@@ -29,8 +29,9 @@ from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
-_MOST_ELEMENTS = 300  # at a tolerance of 1e-3; tractions that need more are not smooth
-_MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
+# Most elements, over those of the first mesh or, at a tolerance of 1e-3, over `ENOUGH_FOR_ZONES`:
+# tractions that need more are not smooth.
+_MOST_TIMES_FIRST = 3.0
 _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
 _LEAST_GROWTH = 1.2  # of the number of elements from size to size
 # Number of elements above which ends may still move between sizes: transitions that do so have no
@@ -83,8 +84,8 @@ def _refined(
     """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
     nip, model = placing.nip, placing.model
     history: list[RefinementLevel] = []
-    most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
-    most = max(most, _MOST_TIMES_FIRST * count)
+    enough = ENOUGH_FOR_ZONES * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
+    most = _MOST_TIMES_FIRST * max(enough, count)
     best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
     last_ratio = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed

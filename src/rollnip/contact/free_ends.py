@@ -32,6 +32,14 @@ from rollnip.contact.problem import (
     shear_signs,
 )
 
+NEAR_ENOUGH = 0.1
+"""Largest misplacement of ends, over the width, with which a solution shows what slips.
+
+It is also the misplacement assumed initially, the free surface beside estimated edges, and the
+relative change of a half-width or a correction up to which a contact is an initial guess for the
+next one; and the length of the stick that is put between slip both ways, over the shorter zone of
+slip, on either side.
+"""
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
 
@@ -56,7 +64,7 @@ class Layout:
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
         """Return the layout of given zones, with free zones in the gaps between them.
 
-        A stick zone is put between two slip zones of opposite sign, where the surfaces must
+        A short stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
         zones = _with_stick_between(zones)
@@ -376,16 +384,16 @@ class Layout:
 
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Return the zones with a stick zone wherever slip zones of opposite sign adjoin.
+    """Return the zones with short stick zones between adjoining slip zones of opposite sign.
 
-    It takes as much from either of the two as an end may move into the shorter one.
+    Its ends are not known, and lie `NEAR_ENOUGH` of the shorter one on either side.
     """
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]
         slips = STICK not in (before.state, zone.state) and before.state != zone.state
         if slips and before.stop == zone.start:
-            reach = _LONGEST_MOVE * min(before.stop - before.start, zone.stop - zone.start)
+            reach = NEAR_ENOUGH * min(before.stop - before.start, zone.stop - zone.start)
             start, stop = before.stop - reach, zone.start + reach
             out[-1] = replace(before, stop=start)
             out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]

@@ -23,11 +23,12 @@ LEAST_SHARE_OF_A_ZONE = 0.08
 # what interpolating the square root of the shear at the edge gets wrong there even if the nodal
 # shear is exact. Measured on a half-plane (tests).
 CREEP_TO_EDGE = 0.02655
-_OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
 _PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
+# Of the nodes beyond both edges, in lengths of the first element: much less, in half of these digits.
+_OUTER_NODE_DISTANCE = float(np.sqrt(_ROUNDING))
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,11 +269,6 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
     ]
     shares = (min(max(share, _ROUNDING), 1.0) for share in wanted)
     return tuple(2.0 ** ceil(log2(share)) for share in shares)
-
-
-def first_count(zones: int) -> int:
-    """Return the elements of the first mesh: the fewest of each zone, and as many at either edge."""
-    return FEWEST_ELEMENTS_OF_A_ZONE * (zones + 2)
 
 
 def elements_of_zones(

@@ -16,7 +16,7 @@ from math import inf
 
 import numpy as np
 
-from rollnip.contact import Layout
+from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
@@ -36,7 +36,7 @@ from rollnip.rolling.refinement import (
     free_ends_from_nodes,
     refine,
 )
-from rollnip.rolling.search import NEAR_ENOUGH, SearchState
+from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
 # Violation of the contact conditions, or change of the correction, below which the iteration may

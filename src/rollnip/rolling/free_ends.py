@@ -12,7 +12,8 @@ from typing import TypeGuard
 import numpy as np
 
 from rollnip._largest import largest
-from rollnip.contact import Layout, cubic_error, first_count, more_elements
+from rollnip.contact import Layout, cubic_error, more_elements
+from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
@@ -29,6 +30,7 @@ from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
+_FIRST_COUNT = 14  # elements of the first mesh, beside the fewest of each zone
 # Most elements, over those of the first mesh or, at a tolerance of 1e-3, over `ENOUGH_FOR_ZONES`:
 # tractions that need more are not smooth.
 _MOST_TIMES_FIRST = 3.0
@@ -70,7 +72,7 @@ def with_free_ends(
     when zones come and go or tractions are singular.
     """
     placing = Placing(nip, model, kernels)
-    count = max(fewest, first_count(layout.states.size))
+    count = max(fewest, _FIRST_COUNT + FEWEST_ELEMENTS_OF_A_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
         return _refined(placing, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)

@@ -27,7 +27,7 @@ _PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
-# Of the nodes beyond both edges, in lengths of the first element: much less, in half of these digits.
+# Of the nodes beyond both edges, in lengths of the first element: short, but not lost in it.
 _OUTER_NODE_DISTANCE = float(np.sqrt(_ROUNDING))
 
 

@@ -193,10 +193,11 @@ class Placing:
         crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        # Stick where slip changes its sign is halved from mesh to mesh as long as it is too long.
+        # Short stick where slip changes its sign is halved from mesh to mesh while it is too long.
         shortest = shortest_zone(self.nip, self.model, layout.width)
         sticks = np.diff(layout.breaks)[layout.reversals]
-        return most + ceil(log2(max(sticks.max(initial=0.0) / shortest, 1.0)))
+        longest = sticks.max(where=sticks < NEAR_ENOUGH * layout.width, initial=shortest)
+        return most + ceil(log2(longest / shortest))
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

@@ -55,8 +55,19 @@ class ZoneSolver:
         as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
         accuracy.
         """
-        has_skin = has_stiff_skin((self.nip.upper, self.nip.lower))
-        return NEGLIGIBLE / STIFF_SKIN if has_skin else NEGLIGIBLE
+        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
+
+    @property
+    def moves_reversals(self) -> bool:
+        """Whether stick where slip changes its sign moves as a whole, see `Layout.with_reversals`.
+
+        Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        """
+        return not self._has_skin
+
+    @cached_property
+    def _has_skin(self) -> bool:
+        return has_stiff_skin((self.nip.upper, self.nip.lower))
 
     def renewed(self, state: SearchState) -> SearchState:
         """Return the state with the second order evaluated from its last solution.
@@ -84,8 +95,7 @@ class ZoneSolver:
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
         proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
-        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
-        if not has_stiff_skin((self.nip.upper, self.nip.lower)):
+        if self.moves_reversals:
             shortest = shortest_zone(self.nip, self.model, layout.width)
             proposed = layout.with_reversals(proposed, shortest)
         return latest, proposed

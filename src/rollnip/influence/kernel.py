@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 # Points of a table in an octave of lengths; an octave of wave numbers has at most as many panels.
-_POINTS_PER_OCTAVE = 8
+POINTS_PER_OCTAVE = 8
 
 
 def _resolving_an_octave() -> int:
@@ -47,7 +47,7 @@ def _left_between_points(per_octave: int) -> float:
     return float((log(2.0) / per_octave) ** 4 / 1920.0)
 
 
-TOLERANCE = _left_between_points(_POINTS_PER_OCTAVE)
+TOLERANCE = _left_between_points(POINTS_PER_OCTAVE)
 """Unresolved part of a compliance, relative to the largest one, below which a table cannot go."""
 MOST_OCTAVES = int(np.finfo(float).nmant)
 """Largest number of octaves of length, and of octaves of wave numbers below them, in a table.
@@ -67,7 +67,7 @@ class Window:
 
     points: tuple[int, int]
     octaves: tuple[int, int]
-    per_octave: int = _POINTS_PER_OCTAVE
+    per_octave: int = POINTS_PER_OCTAVE
 
     @classmethod
     def covering(
@@ -83,7 +83,7 @@ class Window:
         bottom = -high - 2
         if slowest > 0.0:
             bottom = max(min(bottom, floor(-log2(slowest)) - 5), bottom - MOST_OCTAVES)
-        per_octave = (2 if densely else 1) * _POINTS_PER_OCTAVE
+        per_octave = (2 if densely else 1) * POINTS_PER_OCTAVE
         return cls(points=(low, high), octaves=(bottom, -low + 2), per_octave=per_octave)
 
 
@@ -294,7 +294,7 @@ def tabulate(
     per_octave = 1
     limit = np.array(low_limit, dtype=complex)
     samples, roughness = _sample(compliance, window, per_octave, nodes)
-    while roughness > tolerance and per_octave < _POINTS_PER_OCTAVE:
+    while roughness > tolerance and per_octave < POINTS_PER_OCTAVE:
         per_octave *= 2
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)

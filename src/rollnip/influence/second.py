@@ -38,12 +38,11 @@ from scipy.fft import next_fast_len
 from rollnip.compliance import flat_amplitudes, ring_amplitudes
 from rollnip.influence._spline import EvenSpline, even_splines
 from rollnip.influence._weights import ComplexArray, gauss_legendre
-from rollnip.influence.kernel import TOLERANCE, Array
+from rollnip.influence.kernel import POINTS_PER_OCTAVE, TOLERANCE, Array
 from rollnip.influence.surface import moduli
 from rollnip.model import Model
 from rollnip.rollers import Roller
 
-_SIZES_PER_OCTAVE = 4  # half-widths that have a table of their own
 _LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; above it, second-order terms are not small
 _POINTS_PER_HALF_WIDTH = 18.0  # of the grid on which fields at depth are multiplied
 _LARGEST_SPREAD = 3.0  # cap on the length of `_spread`, in half-widths
@@ -236,11 +235,12 @@ def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array
 def table_size(roller: Roller, half_width: float) -> float:
     """Return the next half-width at or below this one that has a table [mm].
 
-    Contacts of similar size thus share a table.
+    Contacts of similar size thus share a table. There are as many sizes in an octave as lengths in
+    a table of influence functions.
     """
     layers = roller.coating_thickness
-    step = np.floor(_SIZES_PER_OCTAVE * np.log2(half_width / layers))
-    return float(layers * 2.0 ** (step / _SIZES_PER_OCTAVE))
+    step = np.floor(POINTS_PER_OCTAVE * np.log2(half_width / layers))
+    return float(layers * 2.0 ** (step / POINTS_PER_OCTAVE))
 
 
 def second_table(roller: Roller, speed: float | None, size: float) -> SecondResponse:
@@ -283,7 +283,7 @@ def _grid(roller: Roller, size: float) -> Array:
     fine as at depth, because products of two waves have half the wavelength. It is long enough for
     the largest contact: fields have decayed to the default tolerance.
     """
-    largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
+    largest = size * 2.0 ** (1.0 / POINTS_PER_OCTAVE)
     window = 2.0 * (largest - log(Model().tolerance) * _spread(roller, size))
     step = size / _POINTS_PER_HALF_WIDTH
     turn = 2.0 * pi * roller.radius
@@ -294,7 +294,7 @@ def _grid(roller: Roller, size: float) -> Array:
 
 def _spread(roller: Roller, size: float) -> float:
     """Return the length over which the layers spread a load, for the length of the grid [mm]."""
-    largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
+    largest = size * 2.0 ** (1.0 / POINTS_PER_OCTAVE)
     return float(min(max(_shear_lag(roller), 0.5 * largest), _LARGEST_SPREAD * largest))
 
 

@@ -10,6 +10,12 @@ import numpy as np
 from rollnip.rolling.surfaces import Array
 
 _SAFETY_FACTOR = 1.5  # on a second-order estimate from two meshes; first order is cautious enough
+NEGLIGIBLE = 0.1
+"""Share of the tolerance that counts as negligible.
+
+Such changes of the second-order terms end an iteration, which reduces their remaining error at
+least tenfold.
+"""
 ROUNDING = float(np.sqrt(np.finfo(float).eps))
 """Relative difference up to which two numbers that have been computed count as equal."""
 

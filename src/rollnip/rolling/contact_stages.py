@@ -20,11 +20,12 @@ from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.corrections import cut_factor_at
 from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
-from rollnip.rolling.iterations import NEGLIGIBLE, solve_on_mesh
+from rollnip.rolling.iterations import solve_on_mesh
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (

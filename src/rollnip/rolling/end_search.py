@@ -18,10 +18,9 @@ from rollnip.influence.surface import STIFF_SKIN
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.changes import to_come_after
+from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
 from rollnip.rolling.estimates import length_change_ratio
 from rollnip.rolling.iterations import (
-    NEGLIGIBLE,
     change_of,
     held_from,
     solve_on_mesh,

@@ -16,6 +16,7 @@ from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
     RefinementLevel,
@@ -24,7 +25,7 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
     zone_error_ratio,
 )
-from rollnip.rolling.iterations import NEGLIGIBLE, converge, with_residual
+from rollnip.rolling.iterations import converge, with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState

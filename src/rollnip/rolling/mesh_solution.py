@@ -13,8 +13,10 @@ import numpy as np
 from rollnip._largest import largest
 from rollnip.contact import ContactProblem, ContactState, ContactZone
 from rollnip.influence import load_weights
+from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -23,7 +25,7 @@ LEAST_SIZE = 0.05
 
 A figure that is zero by symmetry has no relative error.
 """
-_EQUAL_PEAKS = 1e-4  # relative difference of peaks that agree in the four digits shown
+_EQUAL_PEAKS = NEGLIGIBLE * Model().tolerance  # relative difference of peaks as high as others
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,8 +184,9 @@ class MeshSolution:
 def peaks_alike(pressure: Array) -> list[int]:
     """Return the indices of the highest pressure: several where peaks are equally high.
 
-    Peaks count as equally high if they agree in the four digits shown. A stiff skin has peaks
-    beside both edges, and rounding would decide which one is higher.
+    Peaks count as equally high that differ by as little as ends and iterations leave at the default
+    tolerance, so that they agree in the four digits shown. A stiff skin has peaks beside both
+    edges, and rounding would decide which one is higher.
     """
     (high,) = (pressure >= (1.0 - _EQUAL_PEAKS) * pressure.max()).nonzero()
     if high.size < 2:

@@ -17,8 +17,8 @@ import numpy as np
 from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
-from rollnip.rolling.iterations import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch

@@ -12,9 +12,9 @@ from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
-    NEGLIGIBLE,
     converge,
     holding,
     solve_on_mesh,

@@ -23,7 +23,7 @@ from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.iterations import NEGLIGIBLE
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import PairKernels

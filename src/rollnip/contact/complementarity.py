@@ -37,6 +37,7 @@ from rollnip.contact.problem import (
 # first limit tells factors apart that differ by the second, a third of all digits.
 _SMALL = float(np.cbrt(np.finfo(float).eps))
 _SMALLEST = _SMALL * _SMALL
+_FIRST = 0.1  # initial gap and creep, relative to their scales
 _SHORT_OF = 0.95  # share taken of the longest step that keeps all factors positive
 
 
@@ -140,10 +141,10 @@ class _InteriorPoint:
 
     @classmethod
     def of(cls, problem: Inequalities, start: Array) -> _InteriorPoint:
-        """Return the first iterate, with all gaps and creeps as large as their scales."""
+        """Return the first iterate, with all gaps and creeps equal."""
         sizes = problem.sizes.copy()
         sizes[problem.shears] = problem.frictions * sizes[problem.bounding]
-        creeps = np.ones(problem.pressures.size + 2 * problem.shears.size)
+        creeps = np.full(problem.pressures.size + 2 * problem.shears.size, _FIRST)
         matrix = problem.matrix * sizes / problem.scales[:, None]
         return cls(problem, sizes, matrix, problem.right / problem.scales, start / sizes, creeps)
 

@@ -23,12 +23,11 @@ LEAST_SHARE_OF_A_ZONE = 0.08
 # what interpolating the square root of the shear at the edge gets wrong there even if the nodal
 # shear is exact. Measured on a half-plane (tests).
 CREEP_TO_EDGE = 0.02655
+_OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
 _PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
-# Of the nodes beyond both edges, in lengths of the first element: short, but not lost in it.
-_OUTER_NODE_DISTANCE = float(np.sqrt(_ROUNDING))
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ dozen such nodes in a zone are as accurate as a hundred nodes with linear tracti
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf, isnan, sqrt
 from typing import TypeGuard
 
 import numpy as np
@@ -127,9 +127,10 @@ def _refined(
             if not is_repeated:
                 is_repeated, count = True, wanted  # once more, with the ends where they moved to
                 continue
-        last_ratio = (
-            min(last_ratio, _FIRST_ERROR_RATIO) if ratio == inf else largest(ratio, roughness)
-        )
+        excess = largest(ratio, roughness)
+        if isnan(excess):
+            break  # finer meshes do not help a solution that is no number
+        last_ratio = excess if excess < inf else min(last_ratio, _FIRST_ERROR_RATIO)
         finer = _next_count(count, last_ratio, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if count < int(most) else finer

@@ -193,7 +193,7 @@ class Placing:
         crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        if not self.solver.moves_reversals:
+        if not (self.solver.moves_reversals and layout.is_proper):
             return most
         # Short stick where slip changes its sign is halved from mesh to mesh while it is too long.
         shortest = shortest_zone(self.nip, self.model, layout.width)

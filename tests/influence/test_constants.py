@@ -6,7 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "docs" / "decisions" / "0021-constants-one-by-one.md"
-FLOORS = "contact", "influence", "rolling"
+FLOORS = "contact", "influence", "rolling", "all_orders"
 MODULES = [
     module
     for floor in FLOORS

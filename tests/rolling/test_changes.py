@@ -1,9 +1,16 @@
 """Changes between sizes of mesh: figures of a known order have known errors."""
 
+from math import inf
+
 import numpy as np
 import pytest
 
-from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
+from rollnip.rolling.changes import (
+    errors_from_changes,
+    share_left,
+    shown_order,
+    to_come_after,
+)
 
 COUNTS = np.array([20.0, 32.0, 50.0])
 
@@ -45,3 +52,16 @@ def test_less_is_left_the_finer_the_mesh():
     shares = [share_left(np.array([20.0, n]), np.array(2.0)) for n in (25.0, 40.0, 80.0)]
     assert shares == sorted(shares, reverse=True)
     assert shares[1] == pytest.approx(0.5)
+
+
+def test_what_is_to_come_is_the_rest_of_a_geometric_series():
+    assert to_come_after(0.25, 0.5) == pytest.approx(0.25)
+    assert to_come_after(0.1, 1.0) == pytest.approx(0.1 / 9.0)
+    assert to_come_after(0.5, inf) == inf
+
+
+def test_a_series_without_a_sum_has_all_to_come_but_rounding_has_nothing():
+    assert to_come_after(0.5, 0.5) == inf
+    assert to_come_after(0.5, 0.0) == inf
+    assert to_come_after(0.0, 0.0) == 0.0
+    assert to_come_after(1e-14, 1e-15) == 0.0

@@ -17,14 +17,15 @@ from math import inf
 import numpy as np
 
 from rollnip.all_orders.corrections import cut_factor_at
-from rollnip.contact import Layout
+from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
-from rollnip.rolling.iterations import NEGLIGIBLE, solve_on_mesh
+from rollnip.rolling.iterations import solve_on_mesh
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
@@ -36,7 +37,7 @@ from rollnip.rolling.refinement import (
     free_ends_from_nodes,
     refine,
 )
-from rollnip.rolling.search import NEAR_ENOUGH, SearchState
+from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 
 # Violation of the contact conditions, or change of the correction, below which the iteration may

@@ -10,13 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import log
 
-from rollnip.contact import Layout
+from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.finite import Equilibrium
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.mesh_solution import MeshSolution
-from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
 

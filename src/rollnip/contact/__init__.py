@@ -3,7 +3,7 @@
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
-from rollnip.contact.free_ends import Layout
+from rollnip.contact.free_ends import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
     CREEP_TO_EDGE,
     Subdivision,
@@ -29,6 +29,7 @@ from rollnip.contact.problem import (
 
 __all__ = [
     "CREEP_TO_EDGE",
+    "NEAR_ENOUGH",
     "Complementary",
     "ContactProblem",
     "ContactState",

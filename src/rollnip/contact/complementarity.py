@@ -19,16 +19,26 @@ from math import inf
 import numpy as np
 from scipy.linalg import lapack
 
-from rollnip.contact.problem import SLIP_MINUS, SLIP_PLUS, STICK, Array, Indices, Mask, States
+from rollnip.contact.problem import (
+    MOST_ITERATIONS,
+    SLIP_MINUS,
+    SLIP_PLUS,
+    STICK,
+    Array,
+    Indices,
+    Mask,
+    States,
+)
 
 # Stopping limits on the violation of the conditions, relative to their scales. Below the first the
 # iteration always stops; below the second it stops once a step brings no gain, as where a node is
 # on the point of slipping. A violation that has grown to the inverse of the second has diverged:
-# there is no solution.
-_SMALLEST, _SMALL = 1e-11, 1e-6
+# there is no solution. The violation is a product of two factors, one of which goes to zero: the
+# first limit tells factors apart that differ by the second, a third of all digits.
+_SMALL = float(np.cbrt(np.finfo(float).eps))
+_SMALLEST = _SMALL * _SMALL
 _FIRST = 0.1  # initial gap and creep, relative to their scales
 _SHORT_OF = 0.95  # share taken of the longest step that keeps all factors positive
-_MOST_STEPS = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +107,7 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
     iterate, best = _InteriorPoint.of(problem, start), inf
     diverged = max(iterate.violation, 1.0) / _SMALL
     solution: Complementary | None = None
-    for steps in range(_MOST_STEPS):
+    for steps in range(MOST_ITERATIONS):
         violation = iterate.violation
         if violation < min(best, enough):
             best, solution = violation, iterate.solution(steps)

@@ -14,6 +14,7 @@ from scipy.linalg import lapack
 
 from rollnip.contact.problem import (
     FREE,
+    MOST_ITERATIONS,
     SLIP_MINUS,
     SLIP_PLUS,
     STICK,
@@ -255,7 +256,7 @@ class CoupledActiveSet:
         set held, pressures may be negative and surfaces may overlap.
     """
 
-    max_steps: int = 40
+    max_steps: int = MOST_ITERATIONS
     rounding: float = 1e-11
     wanted: Callable[[ContactProblem, ContactState, float], States] = next_states
 

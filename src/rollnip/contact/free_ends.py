@@ -32,9 +32,15 @@ from rollnip.contact.problem import (
     shear_signs,
 )
 
+NEAR_ENOUGH = 0.1
+"""Largest misplacement of ends, over the width, with which a solution shows what slips.
+
+It is also the misplacement assumed initially, the free surface beside estimated edges, and the
+relative change of a half-width or a correction up to which a contact is an initial guess for the
+next one; and the length of the stick that is put between slip both ways, over the shorter zone of
+slip, on either side.
+"""
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
-# Stick put between slip both ways takes this share of the shorter slip zone from each of the two.
-_STICK_BETWEEN = 0.1
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
 
 
@@ -378,13 +384,16 @@ class Layout:
 
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Return the zones with short stick zones between adjoining slip zones of opposite sign."""
+    """Return the zones with short stick zones between adjoining slip zones of opposite sign.
+
+    Its ends are not known, and lie `NEAR_ENOUGH` of the shorter one on either side.
+    """
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]
         slips = STICK not in (before.state, zone.state) and before.state != zone.state
         if slips and before.stop == zone.start:
-            reach = _STICK_BETWEEN * min(before.stop - before.start, zone.stop - zone.start)
+            reach = NEAR_ENOUGH * min(before.stop - before.start, zone.stop - zone.start)
             start, stop = before.stop - reach, zone.start + reach
             out[-1] = replace(before, stop=start)
             out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]

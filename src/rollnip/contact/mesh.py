@@ -26,7 +26,6 @@ CREEP_TO_EDGE = 0.02655
 _OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
 _PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
-_GAUSS_POINTS = 4  # in each piece
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
 
@@ -240,8 +239,9 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
     values[rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
     values[-1, -1] = 1.0
 
-    # Means over x, by Gauss quadrature in the node index.
-    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
+    # exact for a cubic times a slope dx/ds of the fourth degree, which a piece is short enough for.
+    points, weights = np.polynomial.legendre.leggauss(columns.shape[1])
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
     slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
     cubics = _cubic_weights((interval - first)[:, None, None] + inside)

@@ -13,6 +13,9 @@ Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 States = NDArray[np.int8]
 
+MOST_ITERATIONS = 40
+"""Most steps of an active set, an interior point, or a fixed-point iteration on one mesh."""
+
 
 class State(IntEnum):
     """State of a node of the mesh; slip is named after the sign of the shear q."""

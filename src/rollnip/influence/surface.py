@@ -20,7 +20,7 @@ from rollnip.rollers import Roller
 # Ratio of the moduli of a layer and the one below it, above which tables have twice the points: the
 # interpolation error, 1e-7 of the largest compliance, is larger than that by this ratio relative to
 # the compliance at short waves.
-_STIFF_SKIN = 100.0
+STIFF_SKIN = 100.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +89,7 @@ def is_ring(roller: Roller, geometry: str) -> bool:
 def has_stiff_skin(rollers: Iterable[Roller]) -> bool:
     """Return whether a layer is much stiffer than the one below it."""
     return any(
-        above.material.glassy_modulus > _STIFF_SKIN * below.material.relaxed_modulus
+        above.material.glassy_modulus > STIFF_SKIN * below.material.relaxed_modulus
         for roller in rollers
         for above, below in pairwise(roller.layers)
     )

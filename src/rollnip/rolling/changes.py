@@ -10,7 +10,12 @@ import numpy as np
 from rollnip.rolling.surfaces import Array
 
 _SAFETY_FACTOR = 1.5  # on a second-order estimate from two meshes; first order is cautious enough
-_LARGEST_RATIO = 0.9  # of successive changes, so that their geometric series converges
+NEGLIGIBLE = 0.1
+"""Share of the tolerance that counts as negligible.
+
+Such changes of the second-order terms end an iteration, which reduces their remaining error at
+least tenfold.
+"""
 ROUNDING = float(np.sqrt(np.finfo(float).eps))
 """Relative difference up to which two numbers that have been computed count as equal."""
 
@@ -60,9 +65,9 @@ def share_left(counts: Array, order: Array) -> Array:
 def to_come_after(change: float, before: float) -> float:
     """Return the sum of all changes to come, as a geometric series from the last two.
 
-    ``before`` is inf where there has been a single change; so is the result.
+    It is inf where that has no sum, and where there has been a single change: ``before`` is inf. A
+    change that is rounding alone has none to come.
     """
-    if before == inf:
-        return inf
-    ratio = min(change / before, _LARGEST_RATIO) if before > 0.0 else _LARGEST_RATIO
-    return change * ratio / (1.0 - ratio)
+    if change < ROUNDING and before < inf:
+        return 0.0
+    return change * change / (before - change) if change < before < inf else inf

@@ -14,14 +14,13 @@ from functools import cached_property
 from rollnip.contact import GivenStates, Layout, elements_of_zones
 from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
+from rollnip.influence.surface import STIFF_SKIN
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.changes import to_come_after
+from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
 from rollnip.rolling.estimates import length_change_ratio
 from rollnip.rolling.iterations import (
-    NEGLIGIBLE,
-    NEGLIGIBLE_UNDER_SKIN,
     change_of,
     held_from,
     solve_on_mesh,
@@ -51,11 +50,23 @@ class ZoneSolver:
     def settled_change(self) -> float:
         """Change of the second-order terms at which iterations stop, over the tolerance.
 
-        It is smaller under a stiff skin, where the pressure beside an edge responds strongly to
-        small changes of the gap.
+        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
+        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
+        accuracy.
         """
-        has_skin = has_stiff_skin((self.nip.upper, self.nip.lower))
-        return NEGLIGIBLE_UNDER_SKIN if has_skin else NEGLIGIBLE
+        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
+
+    @property
+    def moves_reversals(self) -> bool:
+        """Whether stick where slip changes its sign moves as a whole, see `Layout.with_reversals`.
+
+        Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        """
+        return not self._has_skin
+
+    @cached_property
+    def _has_skin(self) -> bool:
+        return has_stiff_skin((self.nip.upper, self.nip.lower))
 
     def renewed(self, state: SearchState) -> SearchState:
         """Return the state with the second order evaluated from its last solution.
@@ -83,8 +94,7 @@ class ZoneSolver:
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
         proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
-        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
-        if not has_stiff_skin((self.nip.upper, self.nip.lower)):
+        if self.moves_reversals:
             shortest = shortest_zone(self.nip, self.model, layout.width)
             proposed = layout.with_reversals(proposed, shortest)
         return latest, proposed

@@ -14,7 +14,13 @@ from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
+from rollnip.rolling.mesh_solution import (
+    LEAST_SIZE,
+    Figures,
+    MeshSolution,
+    SecondaryFigures,
+    creepage_scale,
+)
 from rollnip.rolling.secondary import secondary_errors, secondary_figures, secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -174,7 +180,7 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
 def zone_error_ratio(history: list[RefinementLevel], tolerance: float) -> float:
     """Return the largest estimated error of a zone's length, over the allowed error.
 
-    Allowed is three times the tolerance, times the length of the zone or a twentieth of the width
+    Allowed is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width
     if that is more.
     """
     if len(history) < 2:
@@ -187,5 +193,5 @@ def zone_error_ratio(history: list[RefinementLevel], tolerance: float) -> float:
 def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
     """Return the largest change of a zone's length, over what `zone_error_ratio` allows."""
     lengths = np.diff(after)
-    allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
+    allowed = 3.0 * tolerance * np.maximum(lengths, LEAST_SIZE * lengths.sum())
     return float(np.max(np.abs(lengths - np.diff(before)) / allowed))

@@ -6,7 +6,7 @@ dozen such nodes in a zone are as accurate as a hundred nodes with linear tracti
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf, isnan, sqrt
 from typing import TypeGuard
 
 import numpy as np
@@ -15,6 +15,7 @@ from rollnip._largest import largest
 from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
     RefinementLevel,
@@ -23,7 +24,7 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
     zone_error_ratio,
 )
-from rollnip.rolling.iterations import NEGLIGIBLE, converge, with_residual
+from rollnip.rolling.iterations import converge, with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
@@ -31,8 +32,9 @@ from rollnip.rolling.surfaces import PairKernels
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
-_MOST_ELEMENTS = 300  # at a tolerance of 1e-3; tractions that need more are not smooth
-_MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
+# Most elements, over those of the first mesh or, at a tolerance of 1e-3, over `ENOUGH_FOR_ZONES`:
+# tractions that need more are not smooth.
+_MOST_TIMES_FIRST = 3.0
 _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
 _LEAST_GROWTH = 1.2  # of the number of elements from size to size
 # Number of elements above which ends may still move between sizes: transitions that do so have no
@@ -85,8 +87,8 @@ def _refined(
     """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
     nip, model = placing.nip, placing.model
     history: list[RefinementLevel] = []
-    most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
-    most = max(most, _MOST_TIMES_FIRST * count)
+    enough = ENOUGH_FOR_ZONES * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
+    most = _MOST_TIMES_FIRST * max(enough, count)
     best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
     last_ratio = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
@@ -126,9 +128,10 @@ def _refined(
             if not is_repeated:
                 is_repeated, count = True, wanted  # once more, with the ends where they moved to
                 continue
-        last_ratio = (
-            min(last_ratio, _FIRST_ERROR_RATIO) if ratio == inf else largest(ratio, roughness)
-        )
+        excess = largest(ratio, roughness)
+        if isnan(excess):
+            break  # finer meshes do not help a solution that is no number
+        last_ratio = excess if excess < inf else min(last_ratio, _FIRST_ERROR_RATIO)
         finer = _next_count(count, last_ratio, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer

@@ -8,21 +8,16 @@ from typing import Protocol
 
 from rollnip._largest import largest
 from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
+from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
-
-MOST_ITERATIONS = 40
-# Share of the tolerance that counts as negligible: such changes of the second-order terms end an
-# iteration, which reduces their remaining error at least tenfold. Under a stiff skin, ends are
-# placed with the second value; a coarse mesh that only looks for zones needs no such accuracy.
-NEGLIGIBLE = 0.1
-NEGLIGIBLE_UNDER_SKIN = 1e-3
 
 
 class Method(Protocol):

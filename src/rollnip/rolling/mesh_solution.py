@@ -13,12 +13,19 @@ import numpy as np
 from rollnip._largest import largest
 from rollnip.contact import ContactProblem, ContactState, ContactZone
 from rollnip.influence import load_weights
+from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Array, Mesh
 
-_EQUAL_PEAKS = 1e-4  # relative difference of peaks that agree in the four digits shown
+LEAST_SIZE = 0.05
+"""Least size that an error is relative to, over the largest that its figure may have.
+
+A figure that is zero by symmetry has no relative error.
+"""
+_EQUAL_PEAKS = NEGLIGIBLE * Model().tolerance  # relative difference of peaks as high as others
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,8 +184,9 @@ class MeshSolution:
 def peaks_alike(pressure: Array) -> list[int]:
     """Return the indices of the highest pressure: several where peaks are equally high.
 
-    Peaks count as equally high if they agree in the four digits shown. A stiff skin has peaks
-    beside both edges, and rounding would decide which one is higher.
+    Peaks count as equally high that differ by as little as ends and iterations leave at the default
+    tolerance, so that they agree in the four digits shown. A stiff skin has peaks beside both
+    edges, and rounding would decide which one is higher.
     """
     (high,) = (pressure >= (1.0 - _EQUAL_PEAKS) * pressure.max()).nonzero()
     if high.size < 2:
@@ -242,11 +250,8 @@ def creepage_scale(nip: Nip, figures: Figures) -> float:
 
 
 def scale_of_creepage(creepage: float, slope: float) -> float:
-    """Return |creepage|, or a twentieth of the slope of the gap at the edge if that is more.
-
-    A creepage that is zero by symmetry has no relative error.
-    """
-    return max(0.05 * slope, abs(creepage))  # in this order: max(a, nan) is a
+    """Return |creepage|, or `LEAST_SIZE` of the slope of the gap at the edge if that is more."""
+    return max(LEAST_SIZE * slope, abs(creepage))  # in this order: max(a, nan) is a
 
 
 def has_grip(latest: MeshSolution) -> bool:

@@ -10,17 +10,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf, log10
+from math import ceil, inf, log2, log10
 
 import numpy as np
 
-from rollnip.contact import Layout
+from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
-from rollnip.rolling.iterations import NEGLIGIBLE
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
-from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
+from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.zone_meshes import are_too_many
 
@@ -28,10 +29,6 @@ from rollnip.rolling.zone_meshes import are_too_many
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
 # 19.
 MOST_MESHES = 8
-# Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
-# by more than a boundary layer is found by bisection, as a solution shows only in which direction
-# it should move. Likewise for a zone of stick where slip changes its sign, whose length is halved.
-_MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -196,9 +193,13 @@ class Placing:
         crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        if (len(crowding) == 1 and crowding[0] < 1.0) or layout.reversals:
-            most += _MOST_HALVINGS
-        return most
+        if not (self.solver.moves_reversals and layout.is_proper):
+            return most
+        # Short stick where slip changes its sign is halved from mesh to mesh while it is too long.
+        shortest = shortest_zone(self.nip, self.model, layout.width)
+        sticks = np.diff(layout.breaks)[layout.reversals]
+        longest = sticks.max(where=sticks < NEAR_ENOUGH * layout.width, initial=shortest)
+        return most + ceil(log2(longest / shortest))
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

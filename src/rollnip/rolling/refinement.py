@@ -8,13 +8,13 @@ from typing import Protocol
 
 import numpy as np
 
-from rollnip.contact import Layout, Safeguarded
+from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
-    NEGLIGIBLE,
     converge,
     holding,
     solve_on_mesh,
@@ -22,7 +22,6 @@ from rollnip.rolling.iterations import (
 )
 from rollnip.rolling.mesh_solution import MeshSolution, has_grip
 from rollnip.rolling.placing import MOST_MESHES, Placing
-from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.zone_meshes import are_too_many
 

@@ -9,6 +9,7 @@ from math import inf
 import numpy as np
 
 from rollnip.contact import (
+    NEAR_ENOUGH,
     CoupledActiveSet,
     Layout,
     State,
@@ -22,19 +23,12 @@ from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.iterations import NEGLIGIBLE
+from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
-NEAR_ENOUGH = 0.1
-"""Largest misplacement of ends, over the width, with which a solution shows what slips.
-
-It is also the misplacement assumed initially, the free surface beside estimated edges, and the
-relative change of a half-width or a correction up to which a contact is an initial guess for the
-next one.
-"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,11 +10,15 @@ from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
-from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
+from rollnip.rolling.mesh_solution import (
+    LEAST_SIZE,
+    MeshSolution,
+    SecondaryFigures,
+    peak_pressure,
+)
 from rollnip.rolling.power_balance import Powers, powers
 from rollnip.rolling.surfaces import Array
 
-_LEAST_SIZE = 0.05  # least size for relative errors, over the largest value a figure may have
 # Least error over the size, times the square of the number of elements: measured on random nips
 # against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
 # tests judge others).
@@ -78,16 +82,15 @@ def secondary_errors(
 def secondary_sizes(nip: Nip, latest: MeshSolution, figures: SecondaryFigures) -> Array:
     """Return the sizes that errors of `SecondaryFigures` are relative to, (8,).
 
-    Each is at least a share of the largest value that the figure may have, as a traction or loss
-    that is zero by symmetry has no relative error. A figure that vanishes for lack of friction or
-    viscosity has size 0, so no error.
+    Each is at least `LEAST_SIZE` of the largest value that the figure may have. A figure that
+    vanishes for lack of friction or viscosity has size 0, so no error.
     """
     load, width = latest.figures.load, latest.figures.nip_width
     work = load * 0.5 * width * nip.curvature  # of the load on the slope of the gap at an edge
     grip = min(nip.friction, 1.0)
-    traction = max(abs(figures.traction), _LEAST_SIZE * grip * load)
-    friction = max(abs(figures.friction), _LEAST_SIZE * grip * work)
+    traction = max(abs(figures.traction), LEAST_SIZE * grip * load)
+    friction = max(abs(figures.friction), LEAST_SIZE * grip * work)
     both = (nip.upper, figures.lost_upper), (nip.lower, figures.lost_lower)
-    lost = [max(one, _LEAST_SIZE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
+    lost = [max(one, LEAST_SIZE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
     driving = [work if nip.friction > 0.0 or of.is_viscoelastic else 0.0 for of, _ in both]
     return np.array([traction, *driving, friction, *lost, width, width])

@@ -9,6 +9,7 @@ import numpy as np
 from rollnip.contact.free_ends import Layout
 from rollnip.contact.problem import Array, Mask
 
+_LONGEST_STEP = 3.0  # longest step of an end, over the longest proposed move, or the last step
 _TINY = float(np.finfo(float).tiny)
 
 
@@ -40,6 +41,7 @@ class Secants:
     reach: float = np.inf
     jacobian: Array | None = None
     last: tuple[Array, Array] | None = None
+    _longest: float = 0.0
     _unit: Array | None = None
     _bracket: tuple[Array, Array] | None = None
     _vanishing: Mask | None = None
@@ -68,22 +70,29 @@ class Secants:
             secant between the two may be used.
         """
         moves = self._moves(layout, proposed, singular)
-        free = np.isfinite(moves)
-        given = ~free
+        given = ~np.isfinite(moves)
         lost = np.clip(
             layout.stepped_towards(proposed).breaks - layout.breaks, -self.reach, self.reach
         )
         steps = np.where(given, lost, 0.0)
         self.reach *= 2.0 if given.any() else 1.0
         jacobian = self._updated_jacobian(layout.breaks, moves)
-        wanted = moves[free] + jacobian[np.ix_(free, given)] @ steps[given]
-        try:
-            steps[free] = -np.linalg.solve(jacobian[np.ix_(free, free)], wanted)
-        except np.linalg.LinAlgError:
-            steps[free] = moves[free]
+        free = ~given
+        if free.any():
+            wanted = moves[free] + jacobian[np.ix_(free, given)] @ steps[given]
+            try:
+                steps[free] = -np.linalg.solve(jacobian[np.ix_(free, free)], wanted)
+            except np.linalg.LinAlgError:
+                steps[free] = moves[free]
+            longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
+            if self._unit is not None and self.last is not None:
+                longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
+            largest = max(float(np.max(np.abs(steps[free]))), _TINY)
+            steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if only_ends_move else None
         limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
         places = self._bracketed(layout.breaks, layout.breaks + moves, limited.breaks)
+        self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
 
     def _moves(self, layout: Layout, proposed: Layout, singular: Array | None) -> Array:

@@ -79,7 +79,7 @@ at low speed) are 1e-8 of their size and more.
 LOST = 0.05
 """Share of its own estimated error below which nothing is left of a figure: readers see 0.
 
-An error is written with two digits, so such a figure is less than half of its last.
+Such a figure says nothing beside its error.
 """
 
 

@@ -249,7 +249,9 @@ class SheetSolution(SmoothSolution):
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
         if self.model.geometry != "linear":  # levers and length of the path are lagged
             return mine
-        wanted = self.nip.tangential.traction + self.refined.iterate.lagged.known.change
+        assert self.nip.sheet is not None
+        pull = self.nip.sheet.tension_in - self.nip.sheet.tension_out
+        wanted = self.nip.tangential.traction + pull
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 

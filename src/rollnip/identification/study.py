@@ -125,7 +125,7 @@ class _FitReader:
 
         def read(key: str, value: Any) -> float:
             with self._placed(f"{where}.{key}"):
-                return parse_quantity(value, dimension)
+                return parse_quantity(value, dimension, in_file=True)
 
         prior = None
         if table.prior is not None:
@@ -284,7 +284,7 @@ class _FitReader:
         dimension = dimension_at(self.case, path)
         if dimension is None:
             raise InvalidInputError(f"`{path}` is no number of the case.")
-        return parse_quantity(value, dimension)
+        return parse_quantity(value, dimension, in_file=True)
 
     @contextmanager
     def _placed(self, where: str) -> Iterator[None]:

@@ -37,7 +37,7 @@ class Quantity:
 
     def _read(self, value: object) -> float:
         try:
-            return parse_quantity(value, self.dimension, infinite=self.infinite)
+            return parse_quantity(value, self.dimension, infinite=self.infinite, in_file=True)
         except InvalidInputError as error:
             raise PydanticCustomError("quantity", "{why}", {"why": str(error)}) from None
 

@@ -47,7 +47,7 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
     """
     if isinstance(study, Mapping):
         return _StudyReader(plain_tree(study), "study", Path()).study()
-    tree = read_document(study)
+    tree = read_document(study, name="study")
     return _StudyReader(tree, str(study), folder_of(study)).study()
 
 
@@ -187,7 +187,7 @@ class _StudyReader:
         numbers = []
         for index, value in enumerate(values):
             with self._placed(f"{where}.values[{index}]"):
-                numbers.append(parse_quantity(value, dimension, infinite=True))
+                numbers.append(parse_quantity(value, dimension, infinite=True, in_file=True))
         return np.array(numbers, dtype=np.float64)
 
     def _range(self, where: str, parameter: ParameterTable) -> Range:
@@ -197,7 +197,7 @@ class _StudyReader:
         ends = []
         for name in ("start", "stop"):
             with self._placed(f"{where}.{name}"):
-                ends.append(parse_quantity(getattr(parameter, name), dimension))
+                ends.append(parse_quantity(getattr(parameter, name), dimension, in_file=True))
         with self._placed(where):
             return Range(ends[0], ends[1], parameter.spacing)
 

@@ -234,22 +234,14 @@ _REFUSED = {
 )
 
 
-def parse_quantity(
-    value: object, dimension: Dimension, *, infinite: bool = False, in_file: bool = False
-) -> float:
+def parse_quantity(value: object, dimension: Dimension, *, infinite: bool = False) -> float:
     """Read a number in base units, or a text that carries its unit.
 
     Parameters
     ----------
-    value :
-        int or float: in the base unit already; text: ``"2 in"``, ``"1.78 kN/m"``, ``"4,5 mm"``.
-    dimension :
-        what it must be: ``"length"``, ``"pressure"``, ...
-    infinite :
-        whether ``inf`` is a value (the radius of a plane).
-    in_file :
-        whether the value is from a file, where a number without quotes is in the base unit;
-        refusals of a text without a unit say so.
+    value : number in the base unit, or text: ``"2 in"``, ``"1.78 kN/m"``, ``"4,5 mm"``.
+    dimension : what it must be: ``"length"``, ``"pressure"``, ...
+    infinite : whether ``inf`` is a value (the radius of a plane).
 
     Returns
     -------
@@ -267,11 +259,11 @@ def parse_quantity(
         raise _refusal(dimension, value, "it is neither a number nor a text")
     if infinite and value.strip() in ("inf", "+inf"):
         return inf
-    return _read(value, dimension, in_file)
+    return _read(value, dimension)
 
 
 @lru_cache(maxsize=1024)  # the cases of a sweep hold the same few texts, over and over
-def _read(value: str, dimension: Dimension, in_file: bool) -> float:
+def _read(value: str, dimension: Dimension) -> float:
     if len(value) > _LONGEST:
         raise _refusal(dimension, value[:20] + "...", f"it is longer than {_LONGEST} characters")
     match = _QUANTITY.fullmatch(value.translate(_MINUS))
@@ -279,10 +271,7 @@ def _read(value: str, dimension: Dimension, in_file: bool) -> float:
         sought = "no number with a unit" if base_unit(dimension) else "no number"
         raise _refusal(dimension, value, f"{sought} can be read from it")
     sign, digits, exponent, written = match.groups()
-    unit = _spelled(written)
-    if not unit and base_unit(dimension):
-        raise _refusal(dimension, value, _without_unit(value, dimension, in_file))
-    scale, offset = _unit(unit, written, value, dimension)
+    scale, offset = _unit(_spelled(written), written, value, dimension)
     number = _number(sign, digits, exponent or "", value, dimension)
     return _checked(_rounded(number * scale + offset), value, infinite=False)
 
@@ -371,6 +360,10 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     kind = _KINDS[dimension]
     if unit in kind.units:
         return kind.units[unit]
+    if not unit:
+        # 10 without a unit is seldom 10 rad; the example of the refusal, in degrees, is enough.
+        written = "" if dimension == "angle" else f', as in "{value.strip()} {kind.base}"'
+        raise _refusal(dimension, value, f"it needs a unit{written}")
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
     if unit in _REFUSED:
@@ -379,15 +372,6 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
         if unit in other.units:
             raise _refusal(dimension, value, f"that is {other.called}")
     raise _refusal(dimension, value, f'"{written}" is not a known unit' + _nearest(unit, kind))
-
-
-def _without_unit(value: str, dimension: Dimension, in_file: bool) -> str:
-    """Return why a number of a dimension with units is not read without one."""
-    base = base_unit(dimension)
-    # "10 rad" is seldom what is meant by 10; the refusal's own example, in degrees, suffices
-    as_in = "" if dimension == "angle" else f', as in "{value.strip()} {base}"'
-    without_quotes = f" (a number without quotes is in {base})" if in_file else ""
-    return f"it needs a unit{as_in}{without_quotes}"
 
 
 def _nearest(unit: str, kind: _DimensionUnits) -> str:

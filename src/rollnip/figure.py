@@ -80,7 +80,7 @@ LOST = 0.05
 """Share of its own estimated error below which nothing is left of a figure: readers see 0.
 
 Such a figure says nothing beside its error. A figure that is never negative is exempt: losses at
-low speed are right to 0.1 % although their claimed errors are larger than they are.
+low speed are right to 0.1 % where their claimed errors are many times the losses.
 """
 
 

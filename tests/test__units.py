@@ -116,7 +116,7 @@ def test_reads_exactly(text, dimension, expected):
         ("2 MPa", "length", "that is a pressure"),
         ("5 mil", "pressure", "that is a length"),
         ("500 N", "line load", "that is a force"),
-        ("4.5", "length", "it has no unit"),
+        ("4.5", "length", 'such as "4.5 mm", got "4.5": it needs a unit, as in "4.5 mm".'),
         ("", "length", "no number"),
         ("   ", "length", "no number"),
         ("mm", "length", "no number"),
@@ -139,7 +139,7 @@ def test_reads_exactly(text, dimension, expected):
         ("-inf", "length", "no number"),
         ("10 1/s", "frequency", "turns or radians"),
         ("10 s", "frequency", "that is a time"),
-        ("10", "angle", "it has no unit"),
+        ("10", "angle", 'an angle such as "10 deg", got "10": it needs a unit.'),
         ("10 deg", "length", "that is an angle"),
     ],
 )

@@ -139,6 +139,7 @@ _PACKAGES = (
     "rubber",
     "sheet",
     "sweeps",
+    "verification",
 )
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -20,7 +20,7 @@ def json_text(tree: Any, *, indent: int | None = 2) -> str:
 
 
 def json_bytes(tree: Any) -> bytes:
-    """Return the same without any blanks, to be sent."""
+    """Return a tree as JSON in bytes without blanks; a zero has no sign."""
     return json.dumps(_with_one_zero(tree), allow_nan=False, separators=(",", ":")).encode()
 
 

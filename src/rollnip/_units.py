@@ -239,12 +239,9 @@ def parse_quantity(value: object, dimension: Dimension, *, infinite: bool = Fals
 
     Parameters
     ----------
-    value :
-        int or float: in the base unit already; text: ``"2 in"``, ``"1.78 kN/m"``, ``"4,5 mm"``.
-    dimension :
-        what it must be: ``"length"``, ``"pressure"``, ...
-    infinite :
-        whether ``inf`` is a value (the radius of a plane).
+    value : number in the base unit, or text: ``"2 in"``, ``"1.78 kN/m"``, ``"4,5 mm"``.
+    dimension : what it must be: ``"length"``, ``"pressure"``, ...
+    infinite : whether ``inf`` is a value (the radius of a plane).
 
     Returns
     -------
@@ -364,7 +361,9 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if unit in kind.units:
         return kind.units[unit]
     if not unit:
-        raise _refusal(dimension, value, f'it has no unit, as in "{value.strip()} {kind.base}"')
+        # 10 without a unit is seldom 10 rad; the example of the refusal, in degrees, is enough.
+        written = "" if dimension == "angle" else f', as in "{value.strip()} {kind.base}"'
+        raise _refusal(dimension, value, f"it needs a unit{written}")
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
     if unit in _REFUSED:

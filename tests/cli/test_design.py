@@ -142,7 +142,7 @@ def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
         ({"wanted": "nip_width=4"}, '--for: `wanted` must be a length such as "4.5 mm", got "4"'),
         ({"path": "nip.lod"}, 'did you mean "load"'),
         ({"between": ("2 kN/mm", "10 N/mm")}, "--between: `low` must be below `high`; give the"),
-        ({"between": ("20", "1")}, 'got "20": it has no unit, as in "20 N/mm".'),
+        ({"between": ("20", "1")}, 'got "20": it needs a unit, as in "20 N/mm".'),
         ({"between": ("1 mm", "10 N/mm")}, "--between: `low` must be a force per length"),
     ],
 )

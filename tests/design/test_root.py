@@ -226,7 +226,7 @@ def test_plain_values_for_json():
         (("title", "nip_width", 8, 1, 2), "`path` must lead to a number of the case, got title."),
         (("upper.layers[4].thickness", "nip_width", 8, 1, 2), "has 1 entry"),
         (("nip.load", "nip_width", "8 N", 1, 2), "`wanted` must be a length"),
-        (("nip.load", "nip_width", "8", 1, 2), "it has no unit"),
+        (("nip.load", "nip_width", "8", 1, 2), 'it needs a unit, as in "8 mm".'),
         (("nip.load", "nip_width", float("nan"), 1, 2), "`wanted` must be a finite number"),
         (("nip.load", "nip_width", 8, "1 mm", 2), "`low` must be a force per length"),
         (("nip.load", "nip_width", 8, 1, float("inf")), "`high` must be a finite number"),

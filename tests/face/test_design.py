@@ -221,3 +221,9 @@ def test_the_shop_formula_is_shown_beside(straight):
 def test_impressions_that_cannot_be_read(impression, unknowns, sentence):
     with pytest.raises(rn.InvalidInputError, match=sentence):
         read_impressions(press(), FACE, [impression], unknowns)
+
+
+def test_a_place_that_is_no_number_is_named_without_its_type():
+    with pytest.raises(rn.InvalidInputError) as caught:
+        Impression([0.0, float("nan")], [5.0, 5.0], 0.1)
+    assert str(caught.value) == "`y` must be a finite number, got nan."

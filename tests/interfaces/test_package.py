@@ -124,7 +124,7 @@ def test_no_module_has_the_name_of_something_beside_it(name):
     assert not modules & set(getattr(door, "__all__", ()))
 
 
-@pytest.mark.parametrize("name", ["plots", "identification", "io"])
+@pytest.mark.parametrize("name", ["plots", "identification", "io", "verification"])
 def test_packages_need_no_import_of_their_own(name):
     loaded_after(f"import rollnip as rn\nassert rn.{name}.__all__")
     assert name in dir(rn)

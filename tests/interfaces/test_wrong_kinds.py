@@ -42,7 +42,11 @@ def test_what_is_no_solution_is_not_written(tmp_path, write, wanted, given, wron
     [
         (lambda: rn.read_case({"nip": {}}), "got dict; `rollnip.io.parse_case` takes a tree."),
         (lambda: rn.read_case(3), "`path` must be the name of a file, got int."),
-        (lambda: rn.sweep(3), "`path` must be the name of a file, got int."),
+        (lambda: rn.sweep(3), "`study` must be the name of a file, got int."),
+        (
+            lambda: rn.read_patch_case({"nip": {}}),
+            "got dict; `rollnip.io.parse_patch_case` takes a tree.",
+        ),
         (lambda: rn.read_patch_case(None), "`path` must be the name of a file, got NoneType."),
     ],
 )

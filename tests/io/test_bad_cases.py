@@ -87,7 +87,7 @@ BAD = [
     (("upper", "radius"), "50 MPa", "upper.radius: must be a length such as"),
     (("nip", "load"), "500 N", "nip.load: must be a force per length"),
     (("nip", "load"), "10 lb/in", "mass or a force"),
-    ((*LAYER, "thickness"), "2", "it has no unit"),
+    ((*LAYER, "thickness"), "2", 'needs a unit, as in "2 mm" (a number without quotes is in mm).'),
     ((*LAYER, "thickness"), "1,000 mm", "1000 or 1.000"),
     ((*LAYER, "thickness"), "4 mm 3", "not a known unit"),
     ((*LAYER, "material", "modulus"), "0.91 Mpa", 'did you mean "MPa"?'),

@@ -33,6 +33,7 @@ class Presented:
     def summary(self, units: Units = "metric") -> str:
         """Return the figures with units and errors, the zones and the warnings, as lines of text.
 
+        A figure that can have either sign is shown as 0 below a twentieth of its estimated error.
         Stresses on interfaces may take longer than the solution and are left out; see
         ``interfaces``.
 

@@ -16,6 +16,7 @@ from rollnip.figure import LOST, axis_label
 from rollnip.figures import FIGURES
 from rollnip.plots import plot_distribution, plot_shares
 from rollnip.plots.style import Style, page
+from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps import scalar_axis, scalar_label
 
 _DIGITS = 5
@@ -181,9 +182,9 @@ def _limit(limit: LimitKept) -> str:
 
 def _with_error(row: Mapping[str, Any], name: str) -> str:
     value, error = float(row[name]), result_error(row, name) or 0.0
-    figure = FIGURES.get(name)
+    figure = FIGURES.get(name) or SHEET_FIGURES.get(name)
     noise = 0.0 if figure is None else figure.noise(row)
-    if abs(value) <= max(noise, LOST * error):
+    if abs(value) <= LOST * error if figure is None else figure.is_nothing(value, error, row):
         value = 0.0
     is_said = error > max(noise, _ROUNDING * abs(value))
     doubt = f" ± {format_quantity(error, digits=2)}" if is_said else ""

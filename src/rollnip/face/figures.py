@@ -225,7 +225,7 @@ SHEET_FACE_PROFILES: Mapping[str, Figure] = by_key(
         "traction_upper",
         "traction, upper roller",
         "line load",
-        "What the upper roller gives to the sheet.",
+        "Traction of the lower roller plus the pull; the levers of the shears are left out.",
     ),
     _F("tension_in", "tension at the inlet", "line load", "Tension of the sheet at the inlet."),
 )

@@ -58,7 +58,7 @@ class Impression:
         if y.ndim != 1 or y.shape != width.shape or y.size == 0:
             raise InvalidInputError("`width` must have one value for each place of `y`.")
         for place, found in zip(y, width, strict=True):
-            require_finite("y", place)
+            require_finite("y", float(place))
             if not 0.0 < found < np.inf:
                 raise InvalidInputError(
                     "`width` must be positive and finite everywhere, "

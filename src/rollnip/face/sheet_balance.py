@@ -15,6 +15,8 @@ free of tension.
 - "one-speed": the sheet is whole, and no part of it can run ahead. V_s is one number, the tension
   at the outlet is even, and that at the inlet is tension_out + T_u - T_l at each place, with the
   mean tension_in.
+T_u stands for T_l plus the pull, tension_in - tension_out: the levers of the shears on a curved
+path, by which the upper roller gives more or less than that, are left out along a face.
 Newton's method solves for ln F, s_u, s_l at all places, delta_0, b and both speeds together.
 """
 

@@ -1,8 +1,10 @@
 """The nip with a sheet as a law: approach, feed and torques as functions of load and tractions.
 
 A cross-section is determined by three numbers: its line load F and the tractions T_u, T_l of both
-interfaces. Their difference is the pull, tension_in - tension_out; the tension at the outlet is
-that of the sheet's table. Each traction is measured by Carter's law of partial slip, as in `law`,
+interfaces. Here T_u stands for T_l plus the pull, tension_in - tension_out: the levers of the
+shears on a curved path, by which the upper roller gives more or less than that, are left out. The
+tension at the outlet is that of the sheet's table. Both tractions are measured by Carter's law of
+partial slip, as in `law`,
 
     T/(mu F) = sign(s) (1 - (1 - |s|)^2).
 

@@ -58,7 +58,7 @@ class SheetFaceSolution(FaceSolution):
 
     @cached_property
     def traction_upper(self) -> Array:
-        """Traction that the upper roller gives to the sheet, (n,) [N/mm]."""
+        """Traction of the lower roller plus the pull, tension_in - tension_out, (n,) [N/mm]."""
         return sealed(self._sheet_law.tractions(self.sheet_balance.points)[0])
 
     @property

@@ -148,7 +148,7 @@ def identify(
         where the case cannot be read.
     """
     method = LeastSquares() if method is None else method
-    tree = dict(case) if isinstance(case, Mapping) else read_document(case)
+    tree = dict(case) if isinstance(case, Mapping) else read_document(case, name="case")
     found, parts = tuple(unknowns), cost.parts
     _check(tree, found, parts)
     first = with_values(tree, {one.path: one.first for one in found})

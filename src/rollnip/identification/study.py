@@ -35,6 +35,7 @@ from rollnip.identification.unknowns import Prior, Unknown
 from rollnip.io import TableColumns, dimension_at, read_columns
 from rollnip.io.document import folder_of, read_document
 from rollnip.io.fitting import DataTable, FitTable, UnknownTable, parse_fit
+from rollnip.io.forms import read_quantity
 from rollnip.io.velocities import Settings, read_velocities
 
 _ERROR = "standard error"
@@ -125,7 +126,7 @@ class _FitReader:
 
         def read(key: str, value: Any) -> float:
             with self._placed(f"{where}.{key}"):
-                return parse_quantity(value, dimension)
+                return read_quantity(value, dimension)
 
         prior = None
         if table.prior is not None:
@@ -284,7 +285,7 @@ class _FitReader:
         dimension = dimension_at(self.case, path)
         if dimension is None:
             raise InvalidInputError(f"`{path}` is no number of the case.")
-        return parse_quantity(value, dimension)
+        return read_quantity(value, dimension)
 
     @contextmanager
     def _placed(self, where: str) -> Iterator[None]:

@@ -58,7 +58,8 @@ def read_case(path: str | Path) -> Case:
         where the file cannot be read or does not describe a nip; one line for each error, with
         the name of the file and the path of the key.
     """
-    return built_case(read_document(path), str(path), folder_of(path))
+    tree = read_document(path, hint="`rollnip.io.parse_case` takes a tree")
+    return built_case(tree, str(path), folder_of(path))
 
 
 def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:

@@ -27,8 +27,14 @@ _WORD = re.compile(r"[^\W\d][\w-]*")
 _SIGNS = re.compile(r"""(?<=[\w"'-])[ \t]*\.|[^.\w"' \t-]""")  # a dot in a key, or what ends keys
 
 
-def read_document(path: str | Path) -> dict[str, Any]:
+def read_document(path: str | Path, *, name: str = "path", hint: str = "") -> dict[str, Any]:
     """Read a TOML or JSON file; ``-`` is the standard input.
+
+    Parameters
+    ----------
+    path : of the file.
+    name : what the caller calls it, for messages.
+    hint : what takes a tree, for which there is no file.
 
     Raises
     ------
@@ -38,13 +44,13 @@ def read_document(path: str | Path) -> dict[str, Any]:
         where ``path`` is no name of a file.
     """
     if not isinstance(path, str | PathLike):
-        hint = "; `rollnip.io.parse_case` takes a tree" if isinstance(path, Mapping) else ""
+        end = f"; {hint}" if hint and isinstance(path, Mapping) else ""
         raise InvalidInputError(
-            f"`path` must be the name of a file, got {type(path).__name__}{hint}."
+            f"`{name}` must be the name of a file, got {type(path).__name__}{end}."
         )
-    name = str(path)
-    reading(name)
-    return parse_document(_text(_bytes(name), name), name)
+    file = str(path)
+    reading(file)
+    return parse_document(_text(_bytes(file), file), file)
 
 
 def folder_of(path: str | Path) -> Path:

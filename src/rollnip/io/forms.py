@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler
@@ -10,6 +11,27 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, base_unit, example, known_units, parse_quantity
+
+
+def read_quantity(value: object, dimension: Dimension, *, infinite: bool = False) -> float:
+    """Return a value of a file in its base unit, as `parse_quantity` does.
+
+    Where a text lacks its unit, the refusal also says what a number without quotes is in.
+    """
+    try:
+        return parse_quantity(value, dimension, infinite=infinite)
+    except InvalidInputError as error:
+        if not (isinstance(value, str) and _is_number(value) and base_unit(dimension)):
+            raise
+        hint = f"a number without quotes is in {base_unit(dimension)}"
+        raise InvalidInputError(f"{str(error).rstrip('.')} ({hint}).") from None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return isfinite(float(text))
+    except ValueError:
+        return False
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +59,7 @@ class Quantity:
 
     def _read(self, value: object) -> float:
         try:
-            return parse_quantity(value, self.dimension, infinite=self.infinite)
+            return read_quantity(value, self.dimension, infinite=self.infinite)
         except InvalidInputError as error:
             raise PydanticCustomError("quantity", "{why}", {"why": str(error)}) from None
 

@@ -61,7 +61,8 @@ def read_patch_case(path: str | Path) -> PatchCase:
 
     Parameters and errors are those of `rollnip.io.read_case`; a case without that table is refused.
     """
-    return _built(read_document(path), str(path), folder_of(path))
+    tree = read_document(path, hint="`rollnip.io.parse_patch_case` takes a tree")
+    return _built(tree, str(path), folder_of(path))
 
 
 def parse_patch_case(case: str | Mapping[str, Any], *, source: str = "case") -> PatchCase:

@@ -6,8 +6,8 @@ distance. Slip dissipates int q_u (creep of the upper interface) V of that power
 the lower interface. The rest goes into the sheet:
 V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds. That is the work against its
 tensions plus the elastic energy that it carries away, V_s [N + a N^2/2] from the outlet to the
-inlet, but for products of pressure and strain: V_s b int p dN, at most 1.3e-4 of the largest power,
-or of V times a traction, in 22 sheets. Pressures on faces that are inclined because the thickness
+inlet, but for products of pressure and strain: V_s b int p dN, in 22 sheets at most 1.3e-4 of the
+largest of powers and V times tractions. Pressures on faces that are inclined because the thickness
 changes would take it back; they are left out. A plate in `linear` has the curvature in the speed of
 its faces, but not in its tension.
 """

@@ -54,12 +54,13 @@ class Grip:
     """The pull that the sheet can take before it slips through the nip.
 
     The pull is the tension on the inlet side less that on the outlet side, which in "linear" is the
-    force of the rollers on the sheet, T_u - T_l. Otherwise it differs from that by some hundredths
-    at most, because the shears act beside the middle of a sheet on a curved path, and at finite
-    strain also because the path is longer than its extent along x. In full sliding each roller
-    contributes its friction coefficient times int p dx, with the same differences. That integral is
-    the load; at finite strain the shears carry part of the load along the curved path, a few
-    hundredths at most, which is taken at its present value.
+    force of the rollers on the sheet, T_u - T_l. Otherwise it differs from that by h/2R of the
+    tractions, R being the radius of the path, because the shears act at the faces, h/2 from the
+    middle of the sheet; at finite strain also because the path is longer than its extent along x.
+    In full sliding each roller contributes its friction coefficient times int p dx; the roller
+    inside the curve h/2R of that less, the other one h/2R more. That integral is the load; at
+    finite strain the shears carry part of the load along the curved path, a few hundredths at most,
+    which is taken at its present value.
 
     Attributes
     ----------

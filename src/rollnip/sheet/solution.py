@@ -249,7 +249,8 @@ class SheetSolution(SmoothSolution):
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
         if self.model.geometry != "linear":  # levers and length of the path are lagged
             return mine
-        wanted = self.nip.tangential.traction + self.refined.iterate.lagged.known.change
+        sheet = self.refined.iterate.problem.sheet
+        wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 
@@ -334,8 +335,7 @@ class SheetSolution(SmoothSolution):
 
     def _strain_of_sheet(self, x: Array) -> Array:
         """Return the strain of the sheet due to its tension and the pressure on it."""
-        sheet = self.nip.sheet
-        assert sheet is not None
+        sheet = self.refined.iterate.problem.sheet
         pressure = self._at(x, self.final.pressure)
         return sheet.stretch_by_tension * self._tension(x) + sheet.stretch_by_pressure * pressure
 

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
-from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip._units import Dimension, base_unit
 from rollnip.figures import PROFILES
 from rollnip.io import TableColumns, dimension_at, read_columns, value_at
 from rollnip.io.document import folder_of, plain_tree, read_document
+from rollnip.io.forms import read_quantity
 from rollnip.io.patch_case import any_case
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
 from rollnip.sweeps.row import SCALARS
@@ -47,7 +48,7 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
     """
     if isinstance(study, Mapping):
         return _StudyReader(plain_tree(study), "study", Path()).study()
-    tree = read_document(study)
+    tree = read_document(study, name="study")
     return _StudyReader(tree, str(study), folder_of(study)).study()
 
 
@@ -187,7 +188,7 @@ class _StudyReader:
         numbers = []
         for index, value in enumerate(values):
             with self._placed(f"{where}.values[{index}]"):
-                numbers.append(parse_quantity(value, dimension, infinite=True))
+                numbers.append(read_quantity(value, dimension, infinite=True))
         return np.array(numbers, dtype=np.float64)
 
     def _range(self, where: str, parameter: ParameterTable) -> Range:
@@ -197,7 +198,7 @@ class _StudyReader:
         ends = []
         for name in ("start", "stop"):
             with self._placed(f"{where}.{name}"):
-                ends.append(parse_quantity(getattr(parameter, name), dimension))
+                ends.append(read_quantity(getattr(parameter, name), dimension))
         with self._placed(where):
             return Range(ends[0], ends[1], parameter.spacing)
 

@@ -214,6 +214,7 @@ def _figure(figure: Figure) -> dict[str, Any]:
         "digits": figure.digits,
         "hint": f"{figure.sentence} {figure.sign}".rstrip(),
         "size": dict(figure.size),
+        "has_sign": figure.has_sign,
     }
 
 

@@ -341,7 +341,8 @@ export function flat(result) {
   const losses = { dissipation_friction: friction, dissipation_viscous: viscous };
   const error = { ...result.error, ...ofSheet(result.sheet?.error) };
   const all = { ...result, ...losses, ...ofSheet(result.sheet), error };
-  const isNothing = ({ key, size }) => isNoise(all[key], all, size) || isLost(all[key], error[key]);
+  const isNothing = ({ key, size, has_sign: hasSign }) =>
+    isNoise(all[key], all, size) || (hasSign && isLost(all[key], error[key]));
   const cleaned = [...FIGURES, ...SHEET_FIGURES].map((figure) => [figure.key, isNothing(figure) ? 0 : all[figure.key]]);
   return { ...all, ...Object.fromEntries(cleaned) };
 }
@@ -360,7 +361,7 @@ function isNoise(value, all, size) {
   return Math.abs(value) < factors.reduce((product, factor) => product * factor, ROUNDING);
 }
 
-/** Whether a figure is so much less than its own error that nothing is left of it. */
+/** Whether a figure of either sign is so much less than its own error that nothing is left of it. */
 function isLost(value, error) {
   return Boolean(value && error) && Math.abs(value) < LOST * error;
 }

@@ -115,6 +115,20 @@ def test_a_plate_without_tension_on_one_side_is_not_called_pushed(geometry):
     assert not any("pushed" in line for line in solution.warnings)
 
 
+def test_a_thick_sheet_is_said_to_slip_through_just_below_what_friction_carries():
+    # On a radius of 10 mm the shears of the upper face pull by R/(R + h/2) of themselves: 0.2927.
+    sheet = rn.Sheet(
+        thickness=0.5, modulus=2000.0, poisson=0.3, bending=False, tension_in=0.294, tension_out=0.0
+    )
+    nip = nip_with(
+        sheet, upper=rn.Roller(radius=10.0), lower=SOFT, normal=rn.LineLoad(1.0), friction=0.3
+    )
+    with pytest.raises(rn.ConvergenceError, match="slips through at a little less"):
+        rn.solve(nip, rn.Model(geometry="curved"))
+    held = replace(nip, sheet=replace(sheet, tension_in=0.29))
+    assert rn.solve(held, rn.Model(geometry="curved")).converged
+
+
 def test_a_stiff_sheet_is_warned_of():
     board = replace(rn.Sheet.usual("board"), bending=False)
     solution = rn.solve(nip_with(board), rn.Model(geometry="linear"))

@@ -97,6 +97,24 @@ def may_slide_at_any_speed(nip: Nip) -> bool:
     return abs(abs(upper - lower) * load - abs(pull)) <= SLACK * load
 
 
+def may_slip_through(nip: Nip) -> bool:
+    """Return whether the pull is so near what friction carries that thickness decides.
+
+    On a path of radius R the shears change the tension by 1 -+ h/2R of themselves
+    (`rollnip.sheet.tension`), R being at least that of the smaller roller.
+    """
+    sheet, tangential = nip.sheet, nip.tangential
+    if sheet is None or not isinstance(nip.normal, LineLoad):
+        return False
+    (upper, lower), load = frictions_of(nip), nip.normal.load
+    pull = sheet.tension_in - sheet.tension_out
+    share = 1.0 - 0.5 * sheet.thickness * max(nip.upper.curvature, nip.lower.curvature)
+    if not isinstance(tangential, Traction):
+        return abs(pull) >= share * (upper + lower) * load
+    asked = abs(tangential.traction + pull), abs(tangential.traction)
+    return asked[0] >= share * upper * load or asked[1] >= share * lower * load
+
+
 def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
     return (
         f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "

@@ -19,6 +19,7 @@ from rollnip.sheet.checks import (
     compression_reservations,
     curved_tension_reservations,
     may_slide_at_any_speed,
+    may_slip_through,
     require_grip,
     require_torque,
     sheet_verdict,
@@ -151,6 +152,12 @@ def _none_found(nip: Nip) -> str:
             "No solution with this sheet was found. Rollers geared so far apart may slide on both "
             "of its sides all over, and these frictions and tensions hold it then at any speed "
             "between theirs; lower the size of `creepage`, or make friction or tensions differ."
+        )
+    if may_slip_through(nip):
+        return (
+            "No solution with this sheet was found. It asks for nearly all that friction carries, "
+            "and on a curved path a thick sheet slips through at a little less; lower the traction "
+            "or the difference of the tensions, or raise the load or the friction."
         )
     if nip.sheet.bending is False:
         return (

@@ -384,10 +384,7 @@ class Layout:
 
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Return the zones with short stick zones between adjoining slip zones of opposite sign.
-
-    Its ends are not known, and lie `NEAR_ENOUGH` of the shorter one on either side.
-    """
+    """Return the zones with short stick zones between adjoining slip zones of opposite sign."""
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]

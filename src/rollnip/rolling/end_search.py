@@ -56,14 +56,6 @@ class ZoneSolver:
         """
         return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
 
-    @property
-    def moves_reversals(self) -> bool:
-        """Whether stick where slip changes its sign moves as a whole, see `Layout.with_reversals`.
-
-        Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
-        """
-        return not self._has_skin
-
     @cached_property
     def _has_skin(self) -> bool:
         return has_stiff_skin((self.nip.upper, self.nip.lower))
@@ -94,7 +86,8 @@ class ZoneSolver:
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
         proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
-        if self.moves_reversals:
+        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        if not self._has_skin:
             shortest = shortest_zone(self.nip, self.model, layout.width)
             proposed = layout.with_reversals(proposed, shortest)
         return latest, proposed

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import ceil, inf, log2, log10
+from math import inf, log10
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
-from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
@@ -29,6 +28,10 @@ from rollnip.rolling.zone_meshes import are_too_many
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
 # 19.
 MOST_MESHES = 8
+# Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
+# by more than a boundary layer is found by bisection, as a solution shows only in which direction
+# it should move. Likewise for a zone of stick where slip changes its sign, whose length is halved.
+_MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -193,13 +196,9 @@ class Placing:
         crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        if not (self.solver.moves_reversals and layout.is_proper):
-            return most
-        # Short stick where slip changes its sign is halved from mesh to mesh while it is too long.
-        shortest = shortest_zone(self.nip, self.model, layout.width)
-        sticks = np.diff(layout.breaks)[layout.reversals]
-        longest = sticks.max(where=sticks < NEAR_ENOUGH * layout.width, initial=shortest)
-        return most + ceil(log2(longest / shortest))
+        if (len(crowding) == 1 and crowding[0] < 1.0) or layout.reversals:
+            most += _MOST_HALVINGS
+        return most
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from judged_rollers import judged_roller
+from judged_rollers import judged_nip
 
 import rollnip as rn
 
@@ -14,15 +14,7 @@ CASES = json.loads(DATA.read_text(encoding="utf-8"))["results"]
 
 
 def solved(case):
-    return rn.solve(
-        rn.Nip(
-            upper=judged_roller(case["upper"]),
-            lower=judged_roller(case["lower"]),
-            normal=rn.LineLoad(case["load"]),
-            friction=case["friction"],
-            tangential=rn.Traction(case["traction"]),
-        )
-    )
+    return rn.solve(judged_nip(case))
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from judged_rollers import judged_nip
 
 import rollnip as rn
 from rollnip.all_orders import acceleration, corrections
@@ -43,23 +44,8 @@ def is_quick(case):
     return known and (share(case) > 0.25 or "mu .5" not in case["case"])
 
 
-def coated(part):
-    layers = tuple(
-        rn.Layer(layer["thickness"], rn.Elastic(modulus=layer["modulus"], poisson=layer["poisson"]))
-        for layer in part.get("layers", ())
-    )
-    return rn.Roller(radius=part["radius"], layers=layers)
-
-
 def solved(case):
-    nip = rn.Nip(
-        upper=coated(case["upper"]),
-        lower=coated(case["lower"]),
-        normal=rn.LineLoad(case["load"]),
-        friction=case["friction"],
-        tangential=rn.Traction(case.get("traction", 0.0)),
-    )
-    return rn.solve(nip, FULL)
+    return rn.solve(judged_nip(case), FULL)
 
 
 def is_as_the_elements(case):

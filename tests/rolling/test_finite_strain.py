@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+from judged_rollers import judged_nip
 
 import rollnip as rn
 from rollnip.rolling import claimed_errors
@@ -24,23 +25,8 @@ def name_of(case):
     return f"{case['case']} mu={case['friction']:g} T={case.get('traction', 0.0):+.3g}"
 
 
-def coated(part):
-    layers = tuple(
-        rn.Layer(layer["thickness"], rn.Elastic(modulus=layer["modulus"], poisson=layer["poisson"]))
-        for layer in part.get("layers", ())
-    )
-    return rn.Roller(radius=part["radius"], layers=layers)
-
-
 def solved(case, geometry):
-    nip = rn.Nip(
-        upper=coated(case["upper"]),
-        lower=coated(case["lower"]),
-        normal=rn.LineLoad(case["load"]),
-        friction=case["friction"],
-        tangential=rn.Traction(case.get("traction", 0.0)),
-    )
-    return rn.solve(nip, rn.Model(geometry=geometry))
+    return rn.solve(judged_nip(case), rn.Model(geometry=geometry))
 
 
 @pytest.mark.parametrize("case", CASES, ids=name_of)

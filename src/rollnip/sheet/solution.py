@@ -364,9 +364,9 @@ class SheetSolution(SmoothSolution):
     @property
     def _levers(self) -> tuple[FaceLevers, FaceLevers] | None:
         """Forces on both faces of the sheet, and their levers; None where these are neglected."""
-        iterate, state = self.refined.iterate, self._state
-        u = iterate.problem.mesh.displacements(state)
-        return None if self.model.geometry == "linear" else face_levers(iterate.problem, state, u)
+        problem, state = self.refined.iterate.problem, self._state
+        is_linear = self.model.geometry == "linear"
+        return None if is_linear else face_levers(problem, state, problem.mesh.displacements(state))
 
     def _sliding(self) -> tuple[Array, Array]:
         """Return creeps per length in full sliding, see `grip.first_to_slide`."""

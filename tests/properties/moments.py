@@ -3,6 +3,7 @@
 import numpy as np
 
 from rollnip.rolling import surface_depths
+from rollnip.rolling.surfaces import hoop_curvature
 
 
 def moments(solution):
@@ -34,3 +35,28 @@ def power_by_moments(solution):
     upper, lower = moments(solution)
     turning = upper * (1.0 + half) / of.upper.radius + lower * (1.0 - half) / of.lower.radius
     return of.speed * turning
+
+
+def moment_of_linear_fields(roller, geometry, x, displacements, tractions):
+    """Driving torque over the radius that holds the tractions on a roller of linear fields.
+
+    The layers are in equilibrium in their undeformed shape, x being the arc along it. The first
+    part knows neither stretch nor loss; the second is how far "curved" goes beyond it, by the
+    stretch that goes with the rotation of the surface.
+
+    Parameters
+    ----------
+    x : (n,) places [mm].
+    displacements : u_x and u_z of the surface, (n,) each [mm].
+    tractions : pressure, and shear on this roller along x, (n,) each [MPa].
+
+    Returns
+    -------
+    Both parts [N/mm].
+    """
+    curvature, dx = hoop_curvature(roller, geometry), np.diff(x)
+    (u_x, u_z), (p, q) = displacements, (middle(one) for one in tractions)
+    slope = np.diff(u_z) / dx
+    first = float((q * (1.0 - curvature * middle(u_z)) - p * slope) @ dx)
+    rotation = slope + curvature * middle(u_x) if geometry == "curved" else np.zeros(dx.size)
+    return first, float((0.5 * q * rotation**2) @ dx)

@@ -4,7 +4,10 @@ import importlib.util
 import sys
 from pathlib import Path
 
+import numpy as np
+
 import rollnip as rn
+from rollnip.rolling import surface_depths
 
 SOFT = rn.Roller(radius=50, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, poisson=0.5))])
 HARD = rn.Roller(radius=25, layers=[rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5))])
@@ -20,6 +23,24 @@ def nip_with(sheet, **more):
     """The nip of configuration II with a sheet, or another one."""
     given = {"upper": SOFT, "lower": HARD, "normal": rn.LineLoad(1.78), "friction": 0.5}
     return rn.Nip(sheet=sheet, **{**given, **more})
+
+
+def deformed_moment(solution, side):
+    """Driving torque over the radius of the tractions on one surface, in "second" and "finite".
+
+    At the height eta over the tangent, with the slope eta', a surface is pushed by
+    (q - p eta', p + q eta') per dx.
+    """
+    roller = (solution.nip.upper, solution.nip.lower)[side]
+    x, u = solution._points
+    height = surface_depths(x, solution.nip, solution.model.geometry, u)[side]
+    of = solution._of_side(side)
+    p, q = (np.interp(x, of.x, t, left=0.0, right=0.0) for t in (of.pressure, of.shear))
+    q = q if side == 0 else -q
+    slope, dx = np.diff(height) / np.diff(x), np.diff(x)
+    at, p, q, height = (0.5 * (t[1:] + t[:-1]) for t in (x, p, q, height))
+    arm = roller.radius - height
+    return float((arm * (q - p * slope) + at * (p + q * slope)) @ dx) / roller.radius
 
 
 def judge(name):

@@ -5,13 +5,12 @@ from math import inf
 
 import numpy as np
 import pytest
-from sheet_nips import RIGID, SOFT, nip_with, paper
+from sheet_nips import RIGID, SOFT, deformed_moment, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.all_orders.corrections import PairCorrection
 from rollnip.finite import NoEquilibriumError, columns, strip
-from rollnip.rolling import surface_depths
 from rollnip.sheet import finite_strain
 from rollnip.sheet.lagged_terms import creep_in_stick, pressed_gap
 
@@ -139,7 +138,7 @@ def test_power_by_moments_and_by_losses(name):
     allowed = 1e-3 * passed / nip.speed
     torques = solution.torque_upper, solution.torque_lower
     for side, (roller, torque) in enumerate(zip((nip.upper, nip.lower), torques, strict=True)):
-        assert torque / roller.radius == pytest.approx(_moment(solution, side), abs=allowed)
+        assert torque / roller.radius == pytest.approx(deformed_moment(solution, side), abs=allowed)
 
 
 def _driven_hard(load, shares, monkeypatch, *, bending=False):
@@ -178,7 +177,7 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
         torques, claims = ("torque_upper", "torque_lower"), solution.error
         for side, name in enumerate(torques):
             radius = (nip.upper, nip.lower)[side].radius
-            off = abs(getattr(solution, name) - radius * _moment(solution, side))
+            off = abs(getattr(solution, name) - radius * deformed_moment(solution, side))
             # the elements over the depth are few for such stretches: they leave 1 %, and say so
             assert off < 1.1 * claims[name], name
     cuts = [one.refined.cut_losses[0] / one.traction for _, one in solved]
@@ -196,31 +195,13 @@ def test_with_more_elements_torques_beside_a_slipping_edge_are_the_moments(monke
     loads = (1.77, 1.772, 1.775, 1.778, 1.78)
     solved = [_driven_hard(load, (share,), monkeypatch) for load in loads]
     apart = [
-        abs(one.torque_upper / nip.upper.radius - _moment(one, 0)) / one.traction
+        abs(one.torque_upper / nip.upper.radius - deformed_moment(one, 0)) / one.traction
         for nip, one in solved
         if one.model.geometry == "finite"
     ]
     assert len(apart) >= len(loads) - 1
     assert np.median(apart) < 3e-4
     assert max(apart) < 6e-4
-
-
-def _moment(solution, side):
-    """Driving torque over the radius of the tractions on one deformed surface.
-
-    At the height eta over the tangent, with the slope eta', a surface is pushed by
-    (q - p eta', p + q eta') per dx.
-    """
-    roller = (solution.nip.upper, solution.nip.lower)[side]
-    x, u = solution._points
-    height = surface_depths(x, solution.nip, "finite", u)[side]
-    of = solution._of_side(side)
-    p, q = (np.interp(x, of.x, t, left=0.0, right=0.0) for t in (of.pressure, of.shear))
-    q = q if side == 0 else -q
-    slope, dx = np.diff(height) / np.diff(x), np.diff(x)
-    at, p, q, height = (0.5 * (t[1:] + t[:-1]) for t in (x, p, q, height))
-    arm = roller.radius - height
-    return float((arm * (q - p * slope) + at * (p + q * slope)) @ dx) / roller.radius
 
 
 def test_tension_grows_along_the_path_of_the_sheet():

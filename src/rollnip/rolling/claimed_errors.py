@@ -93,12 +93,15 @@ def secondary_claims(
     if geometry in FINITE and isfinite(first["creepage"]):
         passed = abs(float(final.problem.weights @ final.state.shear))
         cut = largest(cut, power_left(first["creepage"], passed, final))
-    # In equilibrium a torque equals the moment of the tractions; only "finite" is in equilibrium.
+    # In equilibrium a torque equals the moment of the tractions. "second" is in equilibrium but for
+    # the third order, and its viscous loss is of the first.
     off_upper = off_lower = 0.0
-    if geometry == "finite":
+    slip = largest(errors.friction, cut, spent.reversed_slip)
+    if geometry in FINITE:
         off_upper = abs(spent.driving_upper - spent.moment_upper)
         off_lower = abs(spent.driving_lower - spent.moment_lower)
-    slip = largest(errors.friction, cut, spent.reversed_slip, off_upper, off_lower)
+    if geometry == "finite":
+        slip = largest(slip, off_upper, off_lower)
     out = {
         "traction": errors.traction,
         "torque_upper": nip.upper.radius * largest(errors.driving_upper, cut, off_upper),

@@ -11,6 +11,13 @@ exact at any strain. The sum of both is the friction loss int q (V_u lambda_u - 
 plus the viscous loss V_u w_u + V_l w_l. So the balance closes in every geometry, provided the
 stretch is that of its creep, and no large terms cancel in a torque. The moments of pressure and
 shear about both axles must give the same torques to the order of the geometry; tests confirm it.
+In "linear" and "curved" the layers are in equilibrium in their undeformed shape, int (q du_x/dx +
+p du_z/dx) dx = -w, so that the torque over the radius is the moment of first order plus what the
+rotation of the surface stretches it by (in "curved" only):
+
+    M/R = int [q (1 - u_z/R) - p du_z/dx] dx + int q (du_z/dx + u_x/R)^2/2 dx,
+
+with the shear q on that roller and R infinite in both brackets where layers are flat.
 
 Shear opposes slip, so the loss of a slip zone is never negative. A solution meets this only to its
 residual: in a zone of a thousandth of the contact slip may be reversed, by as little as the
@@ -27,7 +34,7 @@ from math import isnan, nan
 
 import numpy as np
 
-from rollnip.model import Geometry
+from rollnip.model import FINITE, Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import (
@@ -58,7 +65,8 @@ class Powers:
     cut : change of ``friction`` by the short waves that the solution leaves out [N/mm].
     reversed_slip : work of slip in the direction of its own shear, set to 0 in ``friction`` [N/mm].
     moment_upper, moment_lower : moments of the tractions about both axles, over the radii [N/mm];
-        nan except in "finite": in equilibrium, so at finite strain, they equal the torques.
+        nan except in "second" and "finite". In equilibrium, so in "finite", they equal the torques;
+        in "second" they do so to the third order.
     """
 
     friction: float
@@ -104,7 +112,7 @@ def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
         (smooth, _), (friction, reversed_slip) = (slip_losses(work, inside) for work in works)
         cut = abs(friction - smooth)
     moments = [nan, nan]
-    if geometry == "finite":
+    if geometry in FINITE:
         uncut = mesh.uncut(u)
         moments = [moment(side, nip, geometry, mesh, state, uncut) for side in SIDES]
     return Powers(

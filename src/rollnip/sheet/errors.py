@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.nip import Creepage, LineLoad, Nip
+from rollnip.rollers import SIDES
 from rollnip.rolling.estimates import edge_within_memory
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.figures import ALIKE, NAMES, SheetFigures, scales
@@ -80,15 +81,22 @@ def estimated_errors(
 
 
 def raised_by_power_errors(
-    errors: SheetFigures, works: Sequence[tuple[float, float]], off: Array
+    errors: SheetFigures, works: Sequence[tuple[float, float]], off: Array, slip: Array
 ) -> SheetFigures:
     """Return errors that are at least the reversed slip work and the mismatch of the torques.
 
-    ``works``, ``off``: of both sides, see `slip_works` and `torque_mismatch`.
+    Parameters
+    ----------
+    errors : the errors so far.
+    works, off : of both sides, see `slip_works` and `torque_mismatch`.
+    slip : (2,) the part of ``off`` that may be an error of the friction losses.
     """
     values = errors.values.copy()
-    for side, (_, reversed_slip), left in zip(("upper", "lower"), works, off, strict=True):
-        for name, least in (("friction", max(reversed_slip, left)), ("pull", left)):
+    for number, (side, (_, reversed_slip)) in enumerate(zip(SIDES, works, strict=True)):
+        for name, least in (
+            ("friction", max(reversed_slip, slip[number])),
+            ("pull", off[number]),
+        ):
             at = NAMES.index(f"{name}_{side}")
             values[at] = max(values[at], least)
     return SheetFigures(values)

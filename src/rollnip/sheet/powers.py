@@ -116,18 +116,19 @@ def smooth_slip_works(iterate: AnyIterate) -> list[tuple[float, float]]:
     return out
 
 
-def torque_mismatch(iterate: AnyIterate, spent: SheetPowers) -> Array:
+def torque_mismatch(iterate: AnyIterate, geometry: Geometry, spent: SheetPowers) -> Array:
     """Return the mismatch of torques and moments of the tractions over the radii, (2,) [N/mm].
 
-    In equilibrium of all orders they are equal. Both come from finite-element displacements, and a
-    stretch of several times the original length beside a slipping edge is less accurate than the
-    height there.
+    In equilibrium of all orders they are equal. In "finite" both come from finite-element
+    displacements, and a stretch of several times the original length beside a slipping edge is less
+    accurate than the height there. In "second" they differ by the third order, and by what its
+    viscous loss neglects.
     """
     problem, state, out = iterate.problem, iterate.state, np.zeros(2)
     driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
     for side, mesh in enumerate(problem.meshes):
         u = mesh.uncut(problem.displacements(state, side))
-        turning = moment(SIDES[side], problem.nip, "finite", mesh, state.side(side), u)
+        turning = moment(SIDES[side], problem.nip, geometry, mesh, state.side(side), u)
         out[side] = abs(driving[side] - turning)
     return out
 

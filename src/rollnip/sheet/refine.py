@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, ContactState
-from rollnip.model import Geometry, Model
+from rollnip.model import FINITE, Geometry, Model
 from rollnip.rolling import MeshSolution, PairKernels
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.conditions import violation
@@ -272,15 +272,16 @@ def with_power_errors(
 ) -> Refined[IterateT]:
     """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
-    Slip along its own shear cannot be counted as a loss. Only at finite strain are the moments of
-    the tractions as exact as the torques.
+    Slip along its own shear cannot be counted as a loss. Only in "second" and "finite" are the
+    moments of the tractions as exact as the torques.
     """
     iterate = refined.iterate
     works = slip_works(iterate, geometry, formulation.pulls(iterate, geometry))
     left = np.zeros(2)
-    if geometry == "finite":
-        left = torque_mismatch(iterate, refined.figures.powers)
-    errors = tuple(raised_by_power_errors(one, works, left) for one in refined.errors_by_side)
+    if geometry in FINITE:
+        left = torque_mismatch(iterate, geometry, refined.figures.powers)
+    slip = left if geometry == "finite" else np.zeros(2)
+    errors = tuple(raised_by_power_errors(one, works, left, slip) for one in refined.errors_by_side)
     return replace(refined, errors_by_side=errors)
 
 

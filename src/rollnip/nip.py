@@ -263,32 +263,30 @@ class Nip:
                 "take a thinner one, or thicker coverings."
             )
         if isinstance(self.normal, LineLoad):
-            self._check_pull(sheet, self.normal.load)
+            self._check_pull(self.normal.load)
 
-    def _check_pull(self, sheet: Sheet, load: float) -> None:
-        upper, lower = (self.friction_on(side) * load for side in ("upper", "lower"))
-        pull = sheet.tension_in - sheet.tension_out
-        if abs(pull) >= upper + lower:
-            raise InvalidInputError(
-                "`tension_in` less `tension_out` must be smaller in size than the friction of both "
-                f"rollers carries, (mu_upper + mu_lower) * load = {upper + lower:.6g} N/mm, got "
-                f"{pull:.6g}: the sheet slips through; lower the difference, or raise "
-                "the load or the friction."
-            )
-        if not isinstance(self.tangential, Traction):
-            return
-        traction = self.tangential.traction
-        if abs(traction) >= lower:
-            raise InvalidInputError(
-                f"`traction` must be smaller than the lower friction * load = {lower:.6g} N/mm in "
-                f"size (beyond it the sheet slides on the lower roller), got {traction!r}; lower "
-                "it, or raise the load or the friction."
-            )
-        if abs(traction + pull) >= upper:
+    def _check_pull(self, load: float) -> None:
+        given = self.tangential.traction if isinstance(self.tangential, Traction) else None
+        for side, (pull, limit) in asked_of_friction(self, load, given).items():
+            if abs(pull) < limit:
+                continue
+            if side == "both":
+                raise InvalidInputError(
+                    "`tension_in` less `tension_out` must be smaller in size than the friction of "
+                    f"both rollers carries, (mu_upper + mu_lower) * load = {limit:.6g} N/mm, got "
+                    f"{pull:.6g}: the sheet slips through; lower the difference, or raise "
+                    "the load or the friction."
+                )
+            if side == "lower":
+                raise InvalidInputError(
+                    f"`traction` must be smaller than the lower friction * load = {limit:.6g} N/mm "
+                    f"in size (beyond it the sheet slides on the lower roller), got {given!r}; "
+                    "lower it, or raise the load or the friction."
+                )
             raise InvalidInputError(
                 "`traction` must, added to the pull on the sheet (`tension_in` - `tension_out`), "
-                f"stay below the upper friction * load = {upper:.6g} N/mm in size (beyond it the "
-                f"sheet slides on the upper roller), got {traction + pull:.6g} in all; lower "
+                f"stay below the upper friction * load = {limit:.6g} N/mm in size (beyond it the "
+                f"sheet slides on the upper roller), got {pull:.6g} in all; lower "
                 "the pull or the traction, or raise the load or the friction."
             )
 
@@ -331,6 +329,36 @@ class Nip:
                 "plane strain); prescribe `load`."
             )
         require_approach(self.upper, self.lower, approach)
+
+
+def asked_of_friction(
+    nip: Nip, load: float, traction: float | None
+) -> dict[str, tuple[float, float]]:
+    """Return what a sheet asks friction for, and what friction carries there, by place [N/mm].
+
+    "both" rollers hold the difference of the tensions; "lower" and "upper" are each roller's share,
+    where it is known. On a path of radius R shears change the tension by 1 -+ h/2R of themselves
+    (`rollnip.sheet.tension`): that is left out, for only its bound is known, `lever_ratio`.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    load : line load [N/mm].
+    traction : T_l on the lower roller [N/mm]; None where it is not known.
+    """
+    assert nip.sheet is not None
+    upper, lower = (nip.friction_on(side) * load for side in ("upper", "lower"))
+    pull = nip.sheet.tension_in - nip.sheet.tension_out
+    out = {"both": (pull, upper + lower)}
+    if traction is not None:
+        out |= {"lower": (traction, lower), "upper": (traction + pull, upper)}
+    return out
+
+
+def lever_ratio(nip: Nip) -> float:
+    """Return the largest h/2R of the path of a sheet, R being that of the smaller roller."""
+    assert nip.sheet is not None
+    return 0.5 * nip.sheet.thickness * max(nip.upper.curvature, nip.lower.curvature)
 
 
 def _measurable(name: str, value: float, unit: str) -> float:

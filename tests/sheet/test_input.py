@@ -7,6 +7,8 @@ import pytest
 from sheet_nips import RIGID, SOFT, nip_with, paper
 
 import rollnip as rn
+from rollnip.nip import asked_of_friction, lever_ratio
+from rollnip.sheet.checks import none_found
 from rollnip.solver import geometry_for
 
 
@@ -127,6 +129,78 @@ def test_a_thick_sheet_is_said_to_slip_through_just_below_what_friction_carries(
         rn.solve(nip, rn.Model(geometry="curved"))
     held = replace(nip, sheet=replace(sheet, tension_in=0.29))
     assert rn.solve(held, rn.Model(geometry="curved")).converged
+
+
+def test_a_plate_that_slides_on_both_sides_all_over_has_no_speed():
+    sheet = rn.Sheet(thickness=0.5, modulus=2000.0, poisson=0.3, bending=True)
+    nip = nip_with(
+        sheet,
+        upper=rn.Roller(radius=10.0),
+        lower=SOFT,
+        normal=rn.LineLoad(1.0),
+        friction=0.05,
+        tangential=rn.Creepage(0.3),
+    )
+    with pytest.raises(rn.ConvergenceError, match="at any speed"):
+        rn.solve(nip, rn.Model(geometry="curved"))
+
+
+def test_what_friction_is_asked_for_is_stated_once():
+    # with the limits at which a nip is refused, and below them by the lever of the shears
+    sheet = paper(tension_in=0.3, tension_out=0.1, friction_upper=0.4, friction_lower=0.2)
+    nip = nip_with(sheet, normal=rn.LineLoad(2.0), tangential=rn.Traction(0.1))
+    assert lever_ratio(nip) == pytest.approx(0.5 * 0.1 / 25.0)
+    assert asked_of_friction(nip, 2.0, None) == {"both": pytest.approx((0.2, 1.2))}
+    asked = asked_of_friction(nip, 2.0, 0.1)
+    assert list(asked) == ["both", "lower", "upper"]
+    assert asked["lower"] == pytest.approx((0.1, 0.4))
+    assert asked["upper"] == pytest.approx((0.3, 0.8))
+
+
+@pytest.mark.parametrize("side", ["both", "lower", "upper"])
+def test_what_may_slip_through_begins_a_lever_below_what_is_refused(side):
+    """By a thickness of 0.5 mm on 10 mm, 2.5 %: both statements of a limit are one."""
+    tensions = {"both": (1.0, 0.0), "lower": (0.0, 0.3), "upper": (0.4, 0.0)}[side]
+    traction = {"both": None, "lower": 0.3, "upper": 0.0}[side]
+    sheet = rn.Sheet(thickness=0.5, modulus=2000.0, friction_upper=0.4, friction_lower=0.3)
+    if side == "both":
+        sheet = replace(sheet, friction_upper=0.7)
+
+    def nip(share):
+        given = dict(zip(("tension_in", "tension_out"), (share * t for t in tensions), strict=True))
+        driven = rn.Creepage(0.0) if traction is None else rn.Traction(share * traction)
+        of = {"upper": rn.Roller(radius=10.0), "lower": SOFT, "normal": rn.LineLoad(1.0)}
+        return nip_with(replace(sheet, **given), **of, tangential=driven)
+
+    assert none_found(nip(0.974), "other") == "other"
+    assert "slips through at a little less" in none_found(nip(0.976), "other")
+    with pytest.raises(rn.InvalidInputError, match="must"):
+        nip(1.001)
+
+
+def test_geared_rollers_between_the_levers_may_slide_at_any_speed():
+    # The pull is half of the 0.0012 N/mm that the levers take of frictions that pull both ways: on
+    # a straight path one roller would hold the sheet, on this one the other.
+    sheet = rn.Sheet(
+        thickness=0.5,
+        modulus=2000.0,
+        poisson=0.3,
+        tension_in=0.1006,
+        tension_out=0.1,
+        bending=False,
+    )
+    nip = nip_with(
+        sheet,
+        upper=rn.Roller(radius=10.0, layers=[rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.49))]),
+        lower=rn.Roller(radius=10.0),
+        normal=rn.LineLoad(1.0),
+        friction=0.05,
+        tangential=rn.Creepage(0.3),
+    )
+    with pytest.raises(rn.ConvergenceError, match="at any speed"):
+        rn.solve(nip, rn.Model(geometry="curved"))
+    apart = replace(nip, sheet=replace(sheet, tension_in=0.103))
+    assert none_found(apart, "other") == "other"
 
 
 def test_a_stiff_sheet_is_warned_of():

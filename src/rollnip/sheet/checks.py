@@ -9,9 +9,18 @@ import numpy as np
 
 from rollnip._errors import InvalidInputError
 from rollnip.model import BEYOND, Geometry, Model
-from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.nip import (
+    Creepage,
+    LineLoad,
+    Nip,
+    Torque,
+    Traction,
+    asked_of_friction,
+    lever_ratio,
+)
 from rollnip.no_nip import impossible
 from rollnip.reservation import Reservation, instead_of
+from rollnip.rollers import SIDES
 from rollnip.rolling import MeshSolution
 from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.friction import frictions_of
@@ -47,44 +56,59 @@ def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
     """
     if not (isinstance(nip.tangential, Torque) and isinstance(nip.normal, LineLoad)):
         return
-    sheet, load = nip.sheet, nip.normal.load
-    assert sheet is not None
     lower = -nip.tangential.torque_lower * nip.lower.curvature
-    limit = nip.friction_on("lower") * load
-    if abs(lower) > share * limit:
+    asked = asked_of_friction(nip, nip.normal.load, lower)
+    pull, limit = asked["lower"]
+    if abs(pull) > share * limit:
         raise InvalidInputError(
-            f"`torque_lower` asks the sheet for some {abs(lower):.4g} N/mm, but its friction on "
+            f"`torque_lower` asks the sheet for some {abs(pull):.4g} N/mm, but its friction on "
             f"the lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the "
             "friction."
         )
-    upper, limit = lower + sheet.tension_in - sheet.tension_out, nip.friction_on("upper") * load
-    if abs(upper) > share * limit:
-        raise InvalidInputError(_slips_through("torque_lower", "upper", upper, limit))
+    pull, limit = asked["upper"]
+    if abs(pull) > share * limit:
+        raise InvalidInputError(_slips_through("torque_lower", "upper", pull, limit))
 
 
 def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
     """Raise where the prescribed traction or torque exceeds the friction of either interface."""
-    sheet, load = nip.sheet, refined.figures.load
-    assert sheet is not None
-    wanted = refined.iterate.wanted_traction
+    wanted, load = refined.iterate.wanted_traction, refined.figures.load
     if wanted is None or not load > 0.0:
         return
-    pulls = wanted + sheet.tension_in - sheet.tension_out, wanted
+    if not (refined.iterate.settled or isinstance(nip.tangential, Traction)):
+        return
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
-    sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
-    for side, pull, friction in sides:
-        if abs(pull) >= friction * load and (
-            refined.iterate.settled or isinstance(nip.tangential, Traction)
-        ):
-            raise InvalidInputError(_slips_through(name, side, pull, friction * load))
+    asked = asked_of_friction(nip, load, wanted)
+    for side in SIDES:
+        pull, limit = asked[side]
+        if abs(pull) >= limit:
+            raise InvalidInputError(_slips_through(name, side, pull, limit))
 
 
-def may_slide_at_any_speed(nip: Nip) -> bool:
+def none_found(nip: Nip, otherwise: str) -> str:
+    """Return the error message for a sheet without a solution; ``otherwise``: without a cause."""
+    if _may_slide_at_any_speed(nip):
+        return (
+            "No solution with this sheet was found. Rollers geared so far apart may slide on both "
+            "of its sides all over, and these frictions and tensions hold it then at any speed "
+            "between theirs; lower the size of `creepage`, or make friction or tensions differ."
+        )
+    if _may_slip_through(nip):
+        return (
+            "No solution with this sheet was found. It asks for nearly all that friction carries, "
+            "and on a curved path a thick sheet slips through at a little less; lower the traction "
+            "or the difference of the tensions, or raise the load or the friction."
+        )
+    return otherwise
+
+
+def _may_slide_at_any_speed(nip: Nip) -> bool:
     """Return whether geared rollers may slide on both sides at any speed of the sheet.
 
     Where one roller is faster than the sheet and the other slower, friction pulls the two faces by
     mu_u F and mu_l F in opposite directions. If the tensions balance just this difference, no
-    condition remains that determines the speed of the sheet.
+    condition remains that determines the speed of the sheet. The levers of the shears shift this
+    balance: within them each roller may be the one that holds the sheet.
     """
     if not (isinstance(nip.tangential, Creepage) and nip.sheet is not None):
         return False
@@ -94,25 +118,18 @@ def may_slide_at_any_speed(nip: Nip) -> bool:
         load = nip.normal.load
     elif pull != 0.0:
         return False
-    return abs(abs(upper - lower) * load - abs(pull)) <= SLACK * load
+    left = SLACK + lever_ratio(nip) * (upper + lower)
+    return abs(abs(upper - lower) * load - abs(pull)) <= left * load
 
 
-def may_slip_through(nip: Nip) -> bool:
-    """Return whether the pull is so near what friction carries that thickness decides.
-
-    On a path of radius R the shears change the tension by 1 -+ h/2R of themselves
-    (`rollnip.sheet.tension`), R being at least that of the smaller roller.
-    """
-    sheet, tangential = nip.sheet, nip.tangential
-    if sheet is None or not isinstance(nip.normal, LineLoad):
+def _may_slip_through(nip: Nip) -> bool:
+    """Return whether the pull is so near what friction carries that thickness decides."""
+    if nip.sheet is None or not isinstance(nip.normal, LineLoad):
         return False
-    (upper, lower), load = frictions_of(nip), nip.normal.load
-    pull = sheet.tension_in - sheet.tension_out
-    share = 1.0 - 0.5 * sheet.thickness * max(nip.upper.curvature, nip.lower.curvature)
-    if not isinstance(tangential, Traction):
-        return abs(pull) >= share * (upper + lower) * load
-    asked = abs(tangential.traction + pull), abs(tangential.traction)
-    return asked[0] >= share * upper * load or asked[1] >= share * lower * load
+    given = nip.tangential.traction if isinstance(nip.tangential, Traction) else None
+    asked = asked_of_friction(nip, nip.normal.load, given).values()
+    share = 1.0 - lever_ratio(nip)
+    return any(abs(pull) >= share * limit for pull, limit in asked)
 
 
 def _slips_through(name: str, side: str, pull: float, limit: float) -> str:

@@ -18,8 +18,7 @@ from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_leng
 from rollnip.sheet.checks import (
     compression_reservations,
     curved_tension_reservations,
-    may_slide_at_any_speed,
-    may_slip_through,
+    none_found,
     require_grip,
     require_torque,
     sheet_verdict,
@@ -145,26 +144,17 @@ def _solve_with_fallback(
 
 
 def _none_found(nip: Nip) -> str:
-    """Return the error message for a sheet without a solution."""
+    """Return the error message for a membrane without a solution."""
     assert nip.sheet is not None
-    if may_slide_at_any_speed(nip):
-        return (
-            "No solution with this sheet was found. Rollers geared so far apart may slide on both "
-            "of its sides all over, and these frictions and tensions hold it then at any speed "
-            "between theirs; lower the size of `creepage`, or make friction or tensions differ."
-        )
-    if may_slip_through(nip):
-        return (
-            "No solution with this sheet was found. It asks for nearly all that friction carries, "
-            "and on a curved path a thick sheet slips through at a little less; lower the traction "
-            "or the difference of the tensions, or raise the load or the friction."
-        )
     if nip.sheet.bending is False:
-        return (
+        return none_found(
+            nip,
             "No solution with this sheet bending freely was found; leave `bending` out, or "
-            "try a larger load or other tensions."
+            "try a larger load or other tensions.",
         )
-    return "No solution with this sheet was found; try a larger load or other tensions."
+    return none_found(
+        nip, "No solution with this sheet was found; try a larger load or other tensions."
+    )
 
 
 def membrane_mesh_solution(nip: Nip, refined: Refined[MembraneIterate]) -> MeshSolution:

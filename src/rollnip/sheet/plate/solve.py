@@ -19,6 +19,7 @@ from rollnip.sheet.checks import (
     compression_reservations,
     curved_tension_reservations,
     half_width_with_sheet,
+    none_found,
     require_grip,
     sheet_verdict,
     simpler_geometry_reservations,
@@ -66,8 +67,11 @@ def solve_plate(
     if refined is None:
         if asked:
             raise ConvergenceError(
-                "No solution with this sheet's stiffness was found; try a larger load, other "
-                "tensions, or `bending = false`."
+                none_found(
+                    nip,
+                    "No solution with this sheet's stiffness was found; try a larger load, other "
+                    "tensions, or `bending = false`.",
+                )
             )
         return None
     if not asked and not refined.iterate.settled:

@@ -155,7 +155,8 @@ def refine(
     while count <= _MOST_ELEMENTS and failures < _MOST_FAILURES:
         try:
             end_tolerance = _end_tolerance(count) if history else FIRST_END_TOLERANCE
-            iterate = search.settle_zones(iterate.zones, round(count), iterate, end_tolerance)
+            found = search.settle_zones(iterate.zones, round(count), iterate, end_tolerance)
+            iterate = _finite(found)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
@@ -188,6 +189,14 @@ def initial_elements(
     """Return a number of elements that resolves the bending length, at least ``least``."""
     lengths = 2.0 * half_width / formulation.bending_length
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
+
+
+def _finite(iterate: IterateT) -> IterateT:
+    """Return a solution; raise LinAlgError where it is none, from which no other could start."""
+    sides = iterate.state.side(0), iterate.state.side(1)
+    if not all(np.isfinite(one.pressure).all() and np.isfinite(one.shear).all() for one in sides):
+        raise np.linalg.LinAlgError("no finite solution")
+    return iterate
 
 
 def _size_of(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import factorial
 
 import numpy as np
@@ -25,6 +26,7 @@ _OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
 _ONE_FACE = (0.25, 0.25)  # pressures on one face: half of them equal on both, half opposite
 _MOMENTS = 4  # that a sheet without tension needs
 _FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the sheet within the mesh
+_STRETCH = 300.0  # its exponential is far from overflowing
 _TERMS = 5  # of the series in 1/L for such tensions; the terms left out are below 1e-10
 
 
@@ -169,9 +171,8 @@ class PiecewiseLoads:
         pieces = np.zeros((2, *lines.shape))
         pieces[0, 1:] = far[0] * lines[:-1] + near[0] * lines[1:]
         pieces[1, :-1] = near[0] * lines[:-1] + far[0] * lines[1:]
-        along = decays[0][:, 0].tolist()
-        behind = _decaying_sums(pieces[0], along)
-        ahead = _decaying_sums(pieces[1, ::-1], along[::-1])[::-1]
+        behind = _decaying_sums(pieces[0], (nodes - nodes[0]) / length)
+        ahead = _decaying_sums(pieces[1, ::-1], (nodes[-1] - nodes[::-1]) / length)[::-1]
         share = (left / (left + right))[:, None]
         here = (1.0 - share) * lines[at] + share * lines[at + 1]
         outside = np.exp(-np.abs(x - inside) / length)[:, None]
@@ -225,13 +226,20 @@ class PiecewiseLoads:
         return np.asarray(long[:, None] * tail_moments[0] - sheet.sheared * short)
 
 
-def _decaying_sums(pieces: Array, decays: list[float]) -> Array:
-    """Return sums of rows, each of which has decayed from row to row, (m, n); changes ``pieces``.
+def _decaying_sums(pieces: Array, places: Array) -> Array:
+    """Return int exp(s - x) t ds up to given places, (m, n), from pieces up to each of them.
 
-    ``decays``: (m - 1,) factors from one row to the next.
+    They are cumulative sums of exp(s) t, which keep their accuracy as exp(s) grows, but overflow:
+    each stretch of ``places`` has its own origin. Changes ``pieces``.
     """
-    for before, row, decay in zip(pieces[:-1], pieces[1:], decays, strict=True):
-        row += decay * before
+    starts = np.unique(places // _STRETCH, return_index=True)[1]
+    for first, last in pairwise([*starts.tolist(), places.size]):
+        if first > 0:
+            pieces[first] += np.exp(places[first - 1] - places[first]) * pieces[first - 1]
+        grown, some = np.exp(places[first:last] - places[first])[:, None], pieces[first:last]
+        some *= grown
+        np.cumsum(some, axis=0, out=some)
+        some /= grown
     return pieces
 
 

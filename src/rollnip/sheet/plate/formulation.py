@@ -122,7 +122,7 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     """
     x = np.unique(np.concatenate([one.nodes for one in problem.path_shears]))
     upper, lower = (
-        np.interp(x, one.nodes, one.of(shear).lines[:, 0])
+        np.interp(x, one.nodes, one.lines @ shear)
         for one, shear in zip(problem.path_shears, state.shear, strict=True)
     )
     slope = upper - lower

@@ -90,10 +90,24 @@ class PiecewiseLoads:
         """Return int x t dx of each set, (n,) [mm^2]."""
         return np.asarray(self.tail_moments[1, 0])
 
+    def forces_beyond(self, x: Array, values: Array) -> Array:
+        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh."""
+        line, tails = self.lines @ values, self.tail_moments[0] @ values
+        inside, at = self._inside(x)
+        length = self.nodes[at + 1] - inside
+        share = length / (self.nodes[at + 1] - self.nodes[at])
+        means = 0.5 * share * line[at] + (1.0 - 0.5 * share) * line[at + 1]
+        return np.asarray(tails[at + 1] + length * means)
+
+    def _inside(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
+        """Return the nearest places on the mesh, and the numbers of the nodes before them."""
+        inside = np.clip(x, self.nodes[0], self.nodes[-1])
+        at = np.searchsorted(self.nodes, inside, side="right") - 1
+        return inside, np.minimum(at, self.nodes.size - 2)
+
     def tail_moments_at(self, x: Array) -> Array:
         """Return the integrals ``tail_moments`` from given places on, (moments, m, n); exact."""
-        inside = np.clip(x, self.nodes[0], self.nodes[-1])
-        at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
+        inside, at = self._inside(x)
         length = self.nodes[at + 1] - inside
         share = length / (self.nodes[at + 1] - self.nodes[at])
         first, last = _moments(inside, length, self.tail_moments.shape[0])[..., None]
@@ -161,8 +175,7 @@ class PiecewiseLoads:
     def _decayed(self, x: Array) -> tuple[Array, Array]:
         """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
         nodes, lines, length = self.nodes, self.lines, self.plate.length
-        inside = np.clip(x, nodes[0], nodes[-1])
-        at = np.clip(np.searchsorted(nodes, inside, side="right") - 1, 0, nodes.size - 2)
+        inside, at = self._inside(x)
         left, right = inside - nodes[at], nodes[at + 1] - inside
         lengths = np.concatenate([np.diff(nodes), left, right])
         ends = nodes.size - 1, nodes.size - 1 + x.size

@@ -217,8 +217,8 @@ class PlateProblem:
 
     def forces(self, traction: Array, side: int) -> Array:
         """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        one, mesh = self.path_shears[side], self.meshes[side]
-        return np.asarray(-np.diff(one.of(traction).tail_moments_at(mesh.inner)[0, :, 0]))
+        beyond = self.path_shears[side].forces_beyond(self.meshes[side].inner, traction)
+        return np.asarray(-np.diff(beyond))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
         """Return the displacements of one roller at nodes[1:] of its interface."""
@@ -229,30 +229,26 @@ class PlateProblem:
     def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
-            one.of(shear).tail_moments_at(x)[0, :, 0]
+            one.forces_beyond(x, shear)
             for one, shear in zip(self.path_shears, state.shear, strict=True)
         )
         return np.asarray(known.at(x) - upper + lower)
 
-    def height_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the height of the sheet's middle at given places, (m,) [mm]."""
-        out = state.height + state.rotation * x
-        if curved is not None:
-            out += curved.deflection_at(x)[0]
+    def path_at(
+        self, state: PlateState, x: Array, curved: CurvedLoad | None = None
+    ) -> tuple[Array, Array]:
+        """Return height [mm] and rotation of the sheet's middle at given places, each (m,)."""
+        height, turned = state.height + state.rotation * x, np.full(x.size, state.rotation)
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
-            out -= SIGNS[side] * pressed[0] + half * sheared[1]
-        return np.asarray(out)
-
-    def rotation_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the rotation of the sheet's sections at given places, (m,)."""
-        out = np.full(x.size, state.rotation)
+        for side, one in enumerate(self.loads):
+            both = one.of(np.stack([state.pressure[side], state.shear[side]], axis=1))
+            made = both.deflection(x, both.tail_moments_at(x))
+            height -= SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
+            turned -= SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
         if curved is not None:
-            out += curved.deflection_at(x)[1]
-        half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
-            out -= SIGNS[side] * pressed[1] + half * sheared[2]
-        return out
+            lifted, bent = curved.deflection_at(x)
+            height, turned = height + lifted, turned + bent
+        return height, turned
 
     def rotations(self, state: PlateState, curved: CurvedLoad | None = None) -> tuple[Array, Array]:
         """Return the rotation of the sheet's sections at nodes[1:] of both meshes."""
@@ -262,31 +258,28 @@ class PlateProblem:
         upper, lower = np.split(out, [self.meshes[0].nodes.size - 1])
         return upper, lower
 
-    def _deflections_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
-        """Return the deflections by pressure and by shear, see `PiecewiseLoads.deflection`."""
-        out = []
-        for one, *tractions in zip(self.loads, state.pressure, state.shear, strict=True):
-            both = one.of(np.stack(tractions, axis=1))
-            made = both.deflection(x, both.tail_moments_at(x))
-            out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
-        return out
+    def face_indentations_at(
+        self, state: PlateState, known: KnownTension, places: tuple[Array, Array]
+    ) -> list[Array]:
+        """Return the displacements of both faces towards the middle, each (m,) [mm].
 
-    def face_indentations_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
-        """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
-        both = np.tile(x, 2)
-        out = np.tile(0.5 * self.sheet.stretch_by_pressure * known.at(x), (2, 1))
+        ``places``: on the upper and on the lower face.
+        """
+        x, ends = np.concatenate(places), [places[0].size]
+        is_lower = np.arange(x.size) >= ends[0]
+        out = 0.5 * self.sheet.stretch_by_pressure * known.at(x)
         for side, one in enumerate(self.loads):
-            far = np.repeat(np.arange(2) != side, x.size)
+            far = is_lower if side == 0 else ~is_lower
             pulled = self.path_shears[side].of(state.shear[side])
-            warped = pulled.stretch_integral(both, far, pulled.tail_moments_at(both))
-            made = one.of(state.pressure[side]).face_indentation(both, far) - SIGNS[side] * warped
-            out += made.reshape(2, x.size)
-        return out
+            warped = pulled.stretch_integral(x, far, pulled.tail_moments_at(x))
+            made = one.of(state.pressure[side]).face_indentation(x, far) - SIGNS[side] * warped
+            out += made[:, 0]
+        return np.split(out, ends)
 
     def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the strain of the sheet's middle at given places, (m,)."""
         pressed = sum(
-            values_at(mesh, x) @ p for mesh, p in zip(self.meshes, state.pressure, strict=True)
+            values_at(mesh, p, x) for mesh, p in zip(self.meshes, state.pressure, strict=True)
         )
         strain = self.sheet.stretch_by_tension * self.tension_at(state, known, x)
         return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
@@ -313,6 +306,6 @@ class PlateProblem:
         for number, one in enumerate(self.loads):
             pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
             tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
-            pressed -= np.diff(one.of(state.pressure[number]).tail_moments_at(x)[0, :, 0])
+            pressed -= np.diff(one.forces_beyond(x, state.pressure[number]))
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

@@ -49,18 +49,12 @@ class PiecewiseLoads:
     tail_moments: Array
 
     @classmethod
-    def on(
-        cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None
-    ) -> PiecewiseLoads:
-        """Return the unit tractions of all nodes of a mesh.
-
-        ``along``: factors at its fine nodes, such as ds/dx; None: all 1.
-        """
+    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate) -> PiecewiseLoads:
+        """Return the unit tractions of all nodes of a mesh."""
         nodes, acting = mesh.fine.nodes, mesh.fine.acting
         assert acting is not None
         lines = np.zeros((nodes.size, mesh.inner.size))
         lines[1:-1] = acting[1:-1, 1:-1]
-        lines = lines if along is None else lines * along[:, None]
         return cls.of_lines(nodes, lines, sheet, plate)
 
     @classmethod

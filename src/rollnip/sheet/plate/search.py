@@ -241,7 +241,7 @@ class PlateSearch:
     def _path_ratios(
         self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
-        """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
+        """Return ds/dx of the sheet's path in the previous solution, at both meshes' nodes."""
         if before is None or self.model.geometry not in FINITE:
             return None
         out = []
@@ -249,7 +249,7 @@ class PlateSearch:
             x = own.fine.nodes[1:]
             u = own.finer(before.problem.displacements(before.state, side))
             ratio = path_ratio(x, self.nip, side, u)
-            out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
+            out.append(np.interp(new.inner, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
     def _kernels_for(self, before: PlateIterate | None, side: int) -> PairKernels:

@@ -120,7 +120,7 @@ class PlateProblem:
     ----------
     nip, sheet, plate : the physical problem.
     meshes, loads : of the upper and the lower interface.
-    path_shears : shears along the sheet's path, whose `tail_moments` are int x^k/k! q ds.
+    arcs : ds/dx of the sheet's path at the nodes of both meshes.
     frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
@@ -133,7 +133,7 @@ class PlateProblem:
     plate: Plate
     meshes: tuple[Mesh, Mesh]
     loads: tuple[PiecewiseLoads, PiecewiseLoads]
-    path_shears: tuple[PiecewiseLoads, PiecewiseLoads]
+    arcs: tuple[Array, Array]
     frictions: tuple[float, float]
     matrix: Array
     rotation_influence: Array
@@ -144,7 +144,7 @@ class PlateProblem:
     ) -> PlateProblem:
         """Assemble the problem of a nip with a plate on meshes of both interfaces.
 
-        ``arcs``: ds/dx of the sheet's path at the fine nodes of each mesh; None: all 1.
+        ``arcs``: ds/dx of the sheet's path at the nodes of each mesh; None: all 1.
         """
         sheet = nip.sheet
         assert sheet is not None
@@ -153,15 +153,10 @@ class PlateProblem:
             PiecewiseLoads.on(meshes[0], sheet, plate),
             PiecewiseLoads.on(meshes[1], sheet, plate),
         )
-        path_shears = loads
-        if arcs is not None:
-            upper, lower = (
-                PiecewiseLoads.on(mesh, sheet, plate, along)
-                for mesh, along in zip(meshes, arcs, strict=True)
-            )
-            path_shears = upper, lower
-        made = influence_matrices(meshes, loads, path_shears)
-        return cls(nip, sheet, plate, meshes, loads, path_shears, frictions_of(nip), *made)
+        if arcs is None:
+            arcs = np.ones(meshes[0].inner.size), np.ones(meshes[1].inner.size)
+        made = influence_matrices(meshes, loads, arcs)
+        return cls(nip, sheet, plate, meshes, loads, arcs, frictions_of(nip), *made)
 
     @property
     def starts(self) -> tuple[int, int, int, int, int]:
@@ -217,7 +212,8 @@ class PlateProblem:
 
     def forces(self, traction: Array, side: int) -> Array:
         """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        beyond = self.path_shears[side].forces_beyond(self.meshes[side].inner, traction)
+        x, along = self.meshes[side].inner, self.arcs[side] * traction
+        beyond = self.loads[side].forces_beyond(x, along)
         return np.asarray(-np.diff(beyond))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
@@ -229,8 +225,8 @@ class PlateProblem:
     def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
-            one.forces_beyond(x, shear)
-            for one, shear in zip(self.path_shears, state.shear, strict=True)
+            one.forces_beyond(x, arcs * shear)
+            for one, arcs, shear in zip(self.loads, self.arcs, state.shear, strict=True)
         )
         return np.asarray(known.at(x) - upper + lower)
 
@@ -270,7 +266,7 @@ class PlateProblem:
         out = 0.5 * self.sheet.stretch_by_pressure * known.at(x)
         for side, one in enumerate(self.loads):
             far = is_lower if side == 0 else ~is_lower
-            pulled = self.path_shears[side].of(state.shear[side])
+            pulled = one.of(self.arcs[side] * state.shear[side])
             warped = pulled.stretch_integral(x, far, pulled.tail_moments_at(x))
             made = one.of(state.pressure[side]).face_indentation(x, far) - SIGNS[side] * warped
             out += made[:, 0]
@@ -304,7 +300,7 @@ class PlateProblem:
         x = mesh.nodes[1:]
         tension = known.over(x)
         for number, one in enumerate(self.loads):
-            pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
+            pulled = one.of(self.arcs[number] * state.shear[number]).tail_moments_at(x)
             tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
             pressed -= np.diff(one.forces_beyond(x, state.pressure[number]))
         strain = sheet.stretch_by_tension * tension

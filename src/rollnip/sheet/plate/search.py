@@ -60,7 +60,6 @@ _MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not ch
 _MOST_NODES = 320  # of a mesh whose states are determined all at once
 _MOST_CHANGES = 3  # of the zones' states, before the search starts again
 _MOST_ITERATIONS = 25
-_STILL = 0.1  # of the tolerance: last change of the lagged terms
 
 
 _Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
@@ -275,7 +274,7 @@ class PlateSearch:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, settled_change = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, END_TOLERANCE * self.model.tolerance  # ends follow them
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1

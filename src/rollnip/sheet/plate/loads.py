@@ -126,22 +126,28 @@ class PiecewiseLoads:
         Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa], each
         (m, n).
         """
-        # odd powers of |x - s|: twice the part ahead, less the signed total
-        whole = self.tail_moments[:, :1]
-        ahead = 2.0 * tail_moments - whole
-        distances = moments_about(x, ahead, 1)
-        sheared = -0.5 * self.plate.shear * distances
         length, yielding = self.plate.length, 0.5 / self.plate.stiffness
         if length > _FEEBLE * float(np.ptp(self.nodes)):
+            # odd powers of |x - s|: twice the part ahead, less the signed total
+            ahead = 2.0 * tail_moments - self.tail_moments[:, :1]
             height, slope, bend = self._deflection_by_series(x, ahead)
-            return height + sheared, slope, bend
-        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact
-        before, after = self._decayed(x)
+            return height - 0.5 * self.plate.shear * moments_about(x, ahead, 1), slope, bend
+        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact; what takes all
+        # tractions alike is one product of few terms
         yielding *= length
-        near = whole[0] - before - after
-        height = moments_about(x, whole, 2) - length * distances + length**2 * near
-        slope = -moments_about(x, whole, 1) + length * (ahead[0] + before - after)
-        return yielding * height + sheared, yielding * slope, yielding * near
+        by_distance = yielding * length + 0.5 * self.plate.shear
+        one, whole = np.ones(x.size), self.tail_moments[:3, 0]
+        powers = np.stack([0.5 * x**2 + length**2, -x, one], axis=1) * yielding
+        powers[:, :2] += by_distance * np.stack([-x, one], axis=1)
+        turns = yielding * np.stack([x - length, -one], axis=1)
+        before, after = self._decayed(x)
+        far = before + after
+        height = powers @ whole - 2.0 * by_distance * moments_about(x, tail_moments, 1)
+        height -= yielding * length**2 * far
+        slope = 2.0 * tail_moments[0] + before - after
+        slope *= yielding * length
+        slope += turns @ whole[:2]
+        return height, slope, yielding * (whole[0] - far)
 
     def _deflection_by_series(self, x: Array, ahead: Array) -> tuple[Array, ...]:
         """Return height, rotation and curvature where tension straightens little or nothing.

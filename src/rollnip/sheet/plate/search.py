@@ -60,6 +60,9 @@ _MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not ch
 _MOST_NODES = 320  # of a mesh whose states are determined all at once
 _MOST_CHANGES = 3  # of the zones' states, before the search starts again
 _MOST_ITERATIONS = 25
+# Last change of the lagged terms, over the tolerance and at most. In the coarse contacts of
+# "finite", whose tolerance is large, more than that moves the edges beside stiff peaks to and fro.
+_STILL = 0.1, 1e-4
 
 
 _Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
@@ -274,7 +277,7 @@ class PlateSearch:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, settled_change = 0.0, END_TOLERANCE * self.model.tolerance  # ends follow them
+        change, settled_change = 0.0, min(_STILL[0] * self.model.tolerance, _STILL[1])
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1

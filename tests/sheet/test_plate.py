@@ -397,3 +397,16 @@ def test_an_end_that_is_asked_to_and_fro_goes_where_the_secant_says():
         asked = zones.with_ends(zones.ends + 5.0 * np.array([0.2 - here, 0.0] * 2))
         here = float(secants.next(zones, asked).ends[0])
     assert here == pytest.approx(0.2, abs=1e-12)
+
+
+def test_an_end_whose_moves_hardly_grow_with_its_distance_does_not_run_to_and_fro():
+    # far from its place at 0.2 an end is asked to move by 0.01 at most: secants through such moves
+    # pass the place by as much again, for ever
+    secants, here, meshes = SecantSteps[PlateZones](), 0.16, 0
+    while abs(here - 0.2) > 1e-4 and meshes < 30:
+        zones = PlateZones(*(Layout(np.array([here, 9.0]), np.array([1], dtype=np.int8)),) * 2)
+        move = 0.01 * np.tanh((0.2 - here) / 0.003)
+        asked = zones.with_ends(zones.ends + np.array([move, 0.0] * 2))
+        here = float(secants.next(zones, asked).ends[0])
+        meshes += 1
+    assert meshes <= 10

@@ -124,7 +124,7 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
     problem, state = iterate.problem, iterate.state
     x = np.linspace(-12.0, 12.0, 12001)
     curved = iterate.lagged.curved
-    rotation = problem.rotation_at(state, x, curved)
+    rotation = problem.path_at(state, x, curved)[1]
     stiffness, tension = BOARD.bending_stiffness, 0.25
     for middle, length in ((0.3, 1.1), (-2.0, 2.5), (3.1, 2.0)):
         t = np.clip((x - middle) / (2.0 * length), -1.0, 1.0)
@@ -146,8 +146,8 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
             outer += np.trapezoid(work, x)
         if curved is not None:
             couple, force = (
-                np.interp(x, one.nodes, one.lines[:, 0], left=0.0, right=0.0)
-                for one in (curved.couple, curved.force)
+                np.interp(x, curved.loads.nodes, one, left=0.0, right=0.0)
+                for one in curved.loads.lines.T
             )
             outer += np.trapezoid(force * phi - couple * slope, x)
         # the sum over 12001 places is good to 1e-4 of the load
@@ -172,7 +172,7 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
     assert force == pytest.approx(0.0, abs=least * pulled.load)
     assert moment == pytest.approx(righting_moment * state.rotation, abs=max(least, 1e-10))
     # far away it runs along the x axis again, both sides parallel
-    far = problem.rotation_at(state, np.array([-400.0, 400.0]), curved)
+    far = problem.path_at(state, np.array([-400.0, 400.0]), curved)[1]
     assert far == pytest.approx(0.0, abs=10.0 * max(least, 1e-10))
 
 

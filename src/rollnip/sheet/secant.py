@@ -50,15 +50,21 @@ class SecantSteps(Generic[Z]):
     slopes : (m,) secant slopes: the decrease of the proposed move per distance moved, for each end.
         The slope is 1 where a surface responds as a half-plane over the first elements. The slopes
         are kept for the next mesh size.
+    low, high : (m,) the last places of this size from which an end was to move up, and down, with
+        the proposed moves, each (2, m) [mm]; None before the first mesh. An end that far away from
+        its place sees only the nearest pressures proposes moves that hardly grow with the distance,
+        and a secant through two of them may lead past a place that is already known as too far.
     """
 
     zones: Z | None = None
     step: Array | None = None
     slopes: Array | None = None
+    low: Array | None = None
+    high: Array | None = None
 
     def begin_size(self) -> None:
-        """Begin with meshes of another size: forget the last move, keep the slopes."""
-        self.step = None
+        """Begin with meshes of another size: forget the last moves, keep the slopes."""
+        self.step = self.low = self.high = None
 
     def next(self, zones: Z, proposed: Z) -> Z:
         """Return zones whose ends are placed by secants through their last two moves.
@@ -72,7 +78,7 @@ class SecantSteps(Generic[Z]):
         before, step_before = self.zones, self.step
         self.zones, self.step = zones, step
         if before is None or not zones.is_like(before):
-            self.slopes = None
+            self.slopes = self.low = self.high = None
             return proposed
         if step_before is not None:
             moved = here - before.ends
@@ -84,5 +90,20 @@ class SecantSteps(Generic[Z]):
             self.slopes = np.where(np.isfinite(slopes), slopes, known)
         if self.slopes is None:
             return proposed
-        found = zones.with_ends(here + step / self.slopes)
+        found = zones.with_ends(self._bracketed(here, step, here + step / self.slopes))
         return found if found.is_proper else proposed
+
+    def _bracketed(self, here: Array, step: Array, wanted: Array) -> Array:
+        """Return wanted ends, interpolated between known places where they lie beyond one.
+
+        A place on the other side serves once: it may have changed as other ends moved.
+        """
+        now, unknown = np.stack([here, step]), np.full((2, step.size), np.nan)
+        low = np.where(step > 0.0, now, unknown if self.low is None else self.low)
+        high = np.where(step < 0.0, now, unknown if self.high is None else self.high)
+        with np.errstate(invalid="ignore"):
+            beyond = (low[0] < high[0]) & ((wanted <= low[0]) | (wanted >= high[0]))
+            between = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1])
+        self.low = np.where(beyond & (step < 0.0), unknown, low)
+        self.high = np.where(beyond & (step > 0.0), unknown, high)
+        return np.asarray(np.where(beyond, between, wanted))

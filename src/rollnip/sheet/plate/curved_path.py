@@ -41,55 +41,51 @@ class CurvedLoad:
 
     Attributes
     ----------
-    couple, force : c [N/mm] and f [MPa], each of one set, at the same nodes.
+    loads : two sets, c [N/mm] and f [MPa].
     places : (m,) at which their effect on the plate is known, in ascending order [mm].
     height, rotation : height [mm] and rotation of the plate due to them at these places, each (m,).
     """
 
-    couple: PiecewiseLoads
-    force: PiecewiseLoads
+    loads: PiecewiseLoads
     places: Array
     height: Array
     rotation: Array
 
     @classmethod
-    def of(cls, couple: PiecewiseLoads, force: PiecewiseLoads, places: Array) -> CurvedLoad:
+    def of(cls, loads: PiecewiseLoads, places: Array) -> CurvedLoad:
         """Return the load with its effect at given places."""
-        return cls(couple, force, places, *_deflection(couple, force, places))
+        return cls(loads, places, *_deflection(loads, places))
 
     @property
     def total(self) -> float:
         """Return the force per width [N/mm]."""
-        return float(self.force.total[0])
+        return float(self.loads.total[1])
 
     @property
     def moment(self) -> float:
         """Return the moment about x = 0 per width [N]."""
-        return float(self.force.moment[0] - self.couple.total[0])
+        return float(self.loads.moment[1] - self.loads.total[0])
 
     def deflection_at(self, x: Array) -> tuple[Array, Array]:
         """Return height [mm] and rotation of the plate under the load at places, each (m,)."""
         at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
         if np.array_equal(self.places[at], x):
             return self.height[at], self.rotation[at]
-        return _deflection(self.couple, self.force, x)
+        return _deflection(self.loads, x)
 
     def change_from(self, old: CurvedLoad, load: float) -> float:
         """Return the largest change of couple and force since an older load, over the line load."""
-        x = self.couple.nodes
+        x = self.loads.nodes
         couple, force = (
-            np.abs(new.lines[:, 0] - np.interp(x, one.nodes, one.lines[:, 0]))
-            for new, one in ((self.couple, old.couple), (self.force, old.force))
+            np.abs(new - np.interp(x, old.loads.nodes, one))
+            for new, one in zip(self.loads.lines.T, old.loads.lines.T, strict=True)
         )
         return float(couple.max() + np.trapezoid(force, x)) / load
 
 
-def _deflection(couple: PiecewiseLoads, force: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
-    by_couple, by_force = (
-        couple.deflection(x, couple.tail_moments_at(x)),
-        force.deflection(x, force.tail_moments_at(x)),
-    )
-    return (by_couple[1] + by_force[0])[:, 0], (by_couple[2] + by_force[1])[:, 0]
+def _deflection(loads: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
+    height, slope, bend = loads.deflection(x, loads.tail_moments_at(x))
+    return slope[:, 0] + height[:, 1], bend[:, 0] + slope[:, 1]
 
 
 def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:
@@ -100,7 +96,7 @@ def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:
     return turned if curved is None else np.asarray(turned / np.sqrt(1.0 + turned**2))
 
 
-def is_stiff(problem: PlateProblem, state: PlateState, known: KnownTension, x: Array) -> bool:
+def is_stiff(problem: PlateProblem, x: Array, left_out: Array) -> bool:
     """Return whether stiffness rather than tension spreads the pressures on the sheet.
 
     A couple of N times the slope bends a wave of length 2 pi l by N l^2/(D + N_o l^2 + k l^4) of
@@ -108,12 +104,11 @@ def is_stiff(problem: PlateProblem, state: PlateState, known: KnownTension, x: A
     so iterations with a lagged couple converge where N is smaller than that denominator. Half of it
     is required as a margin, and that N_o is smaller too: where tension spreads the pressures,
     bending is small beside it. The same holds where l is below the share of the nip width from
-    which stiffness counts.
+    which stiffness counts. ``left_out``: see `tension_left_out`, at ``x``.
     """
     length = bending_length(problem.nip)
     if length < COUNTED * float(np.ptp(x)):
         return False
-    left_out = _tension_left_out(problem, state, known, x)
     pulled = problem.plate.tension + float(np.max(np.abs(left_out)))
     return pulled * length**2 < problem.sheet.bending_stiffness
 
@@ -124,27 +119,28 @@ def places_along(problem: PlateProblem) -> Array:
 
 
 def curved_load(
-    problem: PlateProblem, state: PlateState, known: KnownTension, x: Array, slope: Array
+    problem: PlateProblem, state: PlateState, x: Array, slope: Array, left_out: Array
 ) -> CurvedLoad:
-    """Return the load on a plate whose path has the given slope at given places, each (m,)."""
+    """Return the load on a plate whose path has the given slope at given places, each (m,).
+
+    ``left_out``: see `tension_left_out`, at the same places.
+    """
     sheet, plate = problem.sheet, problem.plate
     sheared = np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
-        sheared += SIGNS[side] * (values_at(mesh, x) @ state.shear[side])
+        sheared += SIGNS[side] * values_at(mesh, state.shear[side], x)
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
-    couple = slope * _tension_left_out(problem, state, known, x)
-    parts = couple[:, None], (-slope * (sheared - rise))[:, None]
-    first, second = (PiecewiseLoads.of_lines(x, part, sheet, plate) for part in parts)
-    return CurvedLoad.of(first, second, x)
+    lines = np.stack([slope * left_out, -slope * (sheared - rise)], axis=1)
+    return CurvedLoad.of(PiecewiseLoads.of_lines(x, lines, sheet, plate), x)
 
 
-def _tension_left_out(
+def tension_left_out(
     problem: PlateProblem, state: PlateState, known: KnownTension, x: Array
 ) -> Array:
     """Return N - N_o + (h/2) (p_u + p_l) at given places, (m,) [N/mm]."""
     sheet, pressed = problem.sheet, np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
-        pressed += values_at(mesh, x) @ state.pressure[side]
+        pressed += values_at(mesh, state.pressure[side], x)
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     outside = sheet.tension_out + rise * (x - x[0])
     pulled = problem.tension_at(state, known, x) - outside

@@ -120,10 +120,10 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     Between these nodes the slope of the tension, q_u - q_l, is linear but for what the curvature of
     the path adds.
     """
-    x = np.unique(np.concatenate([one.nodes for one in problem.path_shears]))
+    x = np.unique(np.concatenate([one.nodes for one in problem.loads]))
     upper, lower = (
-        np.interp(x, one.nodes, one.of(shear).lines[:, 0])
-        for one, shear in zip(problem.path_shears, state.shear, strict=True)
+        np.interp(x, one.nodes, one.lines @ (arcs * shear))
+        for one, arcs, shear in zip(problem.loads, problem.arcs, state.shear, strict=True)
     )
     slope = upper - lower
     turns = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)

@@ -1,9 +1,9 @@
 """Initial zones of a plate: contact, stick and slip at all nodes, on meshes around the contacts.
 
-The first mesh extends far beyond the contacts. Each further one ends closer to the edges that the
-previous one found, and its nodes crowd there. The last ends about one sheet thickness away, because
-on a rigid roller the pressure ends in a peak as short as that: an edge whose error exceeds the
-length of the peak would move the wrong way in the search that follows.
+The first mesh extends far beyond the contacts. A second one ends closer to the edges that it found,
+and its nodes crowd there. Beside a rigid roller more of them follow, the last of which ends about
+one sheet thickness away, because there the pressure ends in a peak as short as that: an edge whose
+error exceeds the length of the peak would move the wrong way in the search that follows.
 """
 
 from __future__ import annotations
@@ -61,12 +61,15 @@ class InitialZones:
         """Return more accurate zones from approximate ones, on meshes that crowd at their edges.
 
         Each mesh ends closer to the edges that the previous one found; where edges moved to the end
-        of a mesh, the next one keeps the same margin. Where a mesh has no solution, the last zones
-        are returned. ``lagged``: terms of a solution with approximately these zones, of which the
-        traction, the shear-borne load and the known tension are used; None: none is known.
+        of a mesh, the next one keeps the same margin. One mesh that contains the edges is enough
+        where no roller is rigid. Where a mesh has no solution, the last zones are returned.
+
+        ``lagged``: terms of a solution with approximately these zones, of which the traction, the
+        shear-borne load and the known tension are used; None: none is known.
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
+        has_peaks = self.nip.upper.is_rigid or self.nip.lower.is_rigid
         for _ in range(_MOST_REACHES):
             try:
                 found = self._beyond(zones, lagged, elements, margin)
@@ -75,7 +78,7 @@ class InitialZones:
             are_inside, zones = found.edges_off(zones) < _INSIDE * margin, found
             if are_inside:
                 margin *= _NEARER
-                if margin * zones.width < self.nip.sheet.thickness:
+                if not has_peaks or margin * zones.width < self.nip.sheet.thickness:
                     break
         return zones
 

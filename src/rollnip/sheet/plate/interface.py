@@ -98,17 +98,10 @@ def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
     return np.asarray(out)
 
 
-def values_at(mesh: Mesh, x: Array) -> Array:
-    """Return the matrix that interpolates nodal tractions to places, (m, n); 0 off the mesh."""
-    fine = mesh.fine
-    assert fine.values is not None
-    padded = np.zeros((fine.nodes.size, mesh.inner.size))
-    padded[1:-1] = fine.values[1:-1, 1:-1]
-    at = np.clip(np.searchsorted(fine.nodes, x, side="right") - 1, 0, fine.nodes.size - 2)
-    share = (x - fine.nodes[at]) / (fine.nodes[at + 1] - fine.nodes[at])
-    inside = ((share >= 0.0) & (share <= 1.0)).astype(float)
-    before, after = (inside * (1.0 - share))[:, None], (inside * share)[:, None]
-    return np.asarray(before * padded[at] + after * padded[at + 1])
+def values_at(mesh: Mesh, traction: Array, x: Array) -> Array:
+    """Return a traction at given places, interpolated from its nodes, (m,); 0 off the mesh."""
+    between = np.concatenate([[0.0], mesh.between(traction), [0.0]])
+    return np.asarray(np.interp(x, mesh.fine.nodes, between))
 
 
 def interface_peak(mesh: Mesh, pressure: Array) -> tuple[float, float]:

@@ -70,32 +70,35 @@ def added_to_peaks(iterate: PlateIterate, proposed: PlateZones) -> float:
 def overlap(iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
     """Return the relative overlap outside the contacts, or the relative tension in them."""
     problem, state, width = iterate.problem, iterate.state, iterate.zones.width
-    parts = []
-    for side, mesh in enumerate(problem.meshes):
-        away = iterate.zones.sides[side].width * OUTSIDE
-        x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap, pressure = gap_at(iterate, (kernels, geometry), side, x), state.pressure[side]
-        parts.append(violation_outside(problem.nip, gap, pressure, width, state.approach))
+    places = []
+    for mesh, side in zip(problem.meshes, iterate.zones.sides, strict=True):
+        away = side.width * OUTSIDE
+        places.append(np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away]))
+    gaps = gaps_at(iterate, (kernels, geometry), (places[0], places[1]))
+    parts = (
+        violation_outside(problem.nip, gap, pressure, width, state.approach)
+        for gap, pressure in zip(gaps, state.pressure, strict=True)
+    )
     return largest(*parts)
 
 
-def gap_at(
-    iterate: PlateIterate,
-    model: tuple[PairKernels, Geometry],
-    side: int,
-    x: Array,
-) -> Array:
-    """Return the gap between one roller and the sheet at given places, (m,) [mm]."""
+def gaps_at(
+    iterate: PlateIterate, model: tuple[PairKernels, Geometry], places: tuple[Array, Array]
+) -> list[Array]:
+    """Return the gaps between each roller and the sheet at places of their own, each (m,) [mm]."""
     problem, state, curved = iterate.problem, iterate.state, iterate.lagged.curved
-    u = _displacements_at(problem.meshes[side], state, model[0], side, x)
-    gap = (
-        surface_depths(x, problem.nip, model[1], u)[side]
-        + problem.face_indentations_at(state, iterate.lagged.known, x)[side]
-    )
-    gap -= SIGNS[side] * problem.height_at(state, x, curved)
-    if curved is not None:
-        gap -= 0.25 * problem.sheet.thickness * problem.rotation_at(state, x, curved) ** 2
-    return np.asarray(gap - (state.approach if side == 0 else 0.0))
+    x, ends = np.concatenate(places), [places[0].size]
+    heights, rotations = (np.split(part, ends) for part in problem.path_at(state, x, curved))
+    indented = problem.face_indentations_at(state, iterate.lagged.known, places)
+    out = []
+    for side, (here, mesh) in enumerate(zip(places, problem.meshes, strict=True)):
+        u = _displacements_at(mesh, state, model[0], side, here)
+        gap = surface_depths(here, problem.nip, model[1], u)[side] + indented[side]
+        gap -= SIGNS[side] * heights[side]
+        if curved is not None:
+            gap -= 0.25 * problem.sheet.thickness * rotations[side] ** 2
+        out.append(np.asarray(gap - (state.approach if side == 0 else 0.0)))
+    return out
 
 
 def _displacements_at(
@@ -126,5 +129,5 @@ def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTer
         lagged,
         clearance=(upper[0], lower[0]),
         offsets=(upper[1], lower[1]),
-        curved=curved and CurvedLoad.of(curved.couple, curved.force, places_along(problem)),
+        curved=curved and CurvedLoad.of(curved.loads, places_along(problem)),
     )

@@ -28,6 +28,7 @@ from rollnip.sheet.plate.curved_path import (
     direction_of,
     is_stiff,
     places_along,
+    tension_left_out,
 )
 from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
@@ -63,8 +64,10 @@ def lagged_terms(
     if geometry != "linear":
         faces = face_levers(problem, state, old)
         known = KnownTension.after(problem.sheet, faces, bends=True)
-    is_curved = geometry in FINITE and is_stiff(problem, state, known, path)
-    slopes = problem.rotations(state, old) if is_curved else None
+    slopes = None
+    if geometry in FINITE:
+        left_out = tension_left_out(problem, state, known, path)
+        slopes = problem.rotations(state, old) if is_stiff(problem, path, left_out) else None
     bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
         mesh = problem.meshes[side]
@@ -90,7 +93,7 @@ def lagged_terms(
     if slopes is None:
         return PlateTerms(*both, traction, known, 0.5 * sum(leans))
     slope = np.concatenate(slopes)[np.unique(problem.places, return_index=True)[1]]
-    curved = curved_load(problem, state, known, path, slope)
+    curved = curved_load(problem, state, path, slope, left_out)
     return PlateTerms(*both, traction, known, 0.5 * (sum(leans) + curved.total), curved)
 
 

@@ -86,7 +86,8 @@ def _integral_conditions(problem: PlateProblem) -> Array:
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
     rows[2, b:c], rows[2, d:] = half * weights[0], half * weights[1]
-    rows[3, b:c], rows[3, d:] = problem.path_shears[0].total, -problem.path_shears[1].total
+    upper, lower = (one.total * arcs for one, arcs in zip(problem.loads, problem.arcs, strict=True))
+    rows[3, b:c], rows[3, d:] = upper, -lower
     rows[4, d:] = weights[1]
     return rows
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import factorial
 
 import numpy as np
@@ -25,6 +26,7 @@ _OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
 _ONE_FACE = (0.25, 0.25)  # pressures on one face: half of them equal on both, half opposite
 _MOMENTS = 4  # that a sheet without tension needs
 _FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the sheet within the mesh
+_STRETCH = 300.0  # its exponential is far from overflowing
 _TERMS = 5  # of the series in 1/L for such tensions; the terms left out are below 1e-10
 
 
@@ -47,18 +49,12 @@ class PiecewiseLoads:
     tail_moments: Array
 
     @classmethod
-    def on(
-        cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None
-    ) -> PiecewiseLoads:
-        """Return the unit tractions of all nodes of a mesh.
-
-        ``along``: factors at its fine nodes, such as ds/dx; None: all 1.
-        """
+    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate) -> PiecewiseLoads:
+        """Return the unit tractions of all nodes of a mesh."""
         nodes, acting = mesh.fine.nodes, mesh.fine.acting
         assert acting is not None
         lines = np.zeros((nodes.size, mesh.inner.size))
         lines[1:-1] = acting[1:-1, 1:-1]
-        lines = lines if along is None else lines * along[:, None]
         return cls.of_lines(nodes, lines, sheet, plate)
 
     @classmethod
@@ -88,10 +84,24 @@ class PiecewiseLoads:
         """Return int x t dx of each set, (n,) [mm^2]."""
         return np.asarray(self.tail_moments[1, 0])
 
+    def forces_beyond(self, x: Array, values: Array) -> Array:
+        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh."""
+        line, tails = self.lines @ values, self.tail_moments[0] @ values
+        inside, at = self._inside(x)
+        length = self.nodes[at + 1] - inside
+        share = length / (self.nodes[at + 1] - self.nodes[at])
+        means = 0.5 * share * line[at] + (1.0 - 0.5 * share) * line[at + 1]
+        return np.asarray(tails[at + 1] + length * means)
+
+    def _inside(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
+        """Return the nearest places on the mesh, and the numbers of the nodes before them."""
+        inside = np.clip(x, self.nodes[0], self.nodes[-1])
+        at = np.searchsorted(self.nodes, inside, side="right") - 1
+        return inside, np.minimum(at, self.nodes.size - 2)
+
     def tail_moments_at(self, x: Array) -> Array:
         """Return the integrals ``tail_moments`` from given places on, (moments, m, n); exact."""
-        inside = np.clip(x, self.nodes[0], self.nodes[-1])
-        at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
+        inside, at = self._inside(x)
         length = self.nodes[at + 1] - inside
         share = length / (self.nodes[at + 1] - self.nodes[at])
         first, last = _moments(inside, length, self.tail_moments.shape[0])[..., None]
@@ -116,22 +126,28 @@ class PiecewiseLoads:
         Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa], each
         (m, n).
         """
-        # odd powers of |x - s|: twice the part ahead, less the signed total
-        whole = self.tail_moments[:, :1]
-        ahead = 2.0 * tail_moments - whole
-        distances = moments_about(x, ahead, 1)
-        sheared = -0.5 * self.plate.shear * distances
         length, yielding = self.plate.length, 0.5 / self.plate.stiffness
         if length > _FEEBLE * float(np.ptp(self.nodes)):
+            # odd powers of |x - s|: twice the part ahead, less the signed total
+            ahead = 2.0 * tail_moments - self.tail_moments[:, :1]
             height, slope, bend = self._deflection_by_series(x, ahead)
-            return height + sheared, slope, bend
-        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact
-        before, after = self._decayed(x)
+            return height - 0.5 * self.plate.shear * moments_about(x, ahead, 1), slope, bend
+        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact; what takes all
+        # tractions alike is one product of few terms
         yielding *= length
-        near = whole[0] - before - after
-        height = moments_about(x, whole, 2) - length * distances + length**2 * near
-        slope = -moments_about(x, whole, 1) + length * (ahead[0] + before - after)
-        return yielding * height + sheared, yielding * slope, yielding * near
+        by_distance = yielding * length + 0.5 * self.plate.shear
+        one, whole = np.ones(x.size), self.tail_moments[:3, 0]
+        powers = np.stack([0.5 * x**2 + length**2, -x, one], axis=1) * yielding
+        powers[:, :2] += by_distance * np.stack([-x, one], axis=1)
+        turns = yielding * np.stack([x - length, -one], axis=1)
+        before, after = self._decayed(x)
+        far = before + after
+        height = powers @ whole - 2.0 * by_distance * moments_about(x, tail_moments, 1)
+        height -= yielding * length**2 * far
+        slope = 2.0 * tail_moments[0] + before - after
+        slope *= yielding * length
+        slope += turns @ whole[:2]
+        return height, slope, yielding * (whole[0] - far)
 
     def _deflection_by_series(self, x: Array, ahead: Array) -> tuple[Array, ...]:
         """Return height, rotation and curvature where tension straightens little or nothing.
@@ -159,8 +175,7 @@ class PiecewiseLoads:
     def _decayed(self, x: Array) -> tuple[Array, Array]:
         """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
         nodes, lines, length = self.nodes, self.lines, self.plate.length
-        inside = np.clip(x, nodes[0], nodes[-1])
-        at = np.clip(np.searchsorted(nodes, inside, side="right") - 1, 0, nodes.size - 2)
+        inside, at = self._inside(x)
         left, right = inside - nodes[at], nodes[at + 1] - inside
         lengths = np.concatenate([np.diff(nodes), left, right])
         ends = nodes.size - 1, nodes.size - 1 + x.size
@@ -169,9 +184,8 @@ class PiecewiseLoads:
         pieces = np.zeros((2, *lines.shape))
         pieces[0, 1:] = far[0] * lines[:-1] + near[0] * lines[1:]
         pieces[1, :-1] = near[0] * lines[:-1] + far[0] * lines[1:]
-        along = decays[0][:, 0].tolist()
-        behind = _decaying_sums(pieces[0], along)
-        ahead = _decaying_sums(pieces[1, ::-1], along[::-1])[::-1]
+        behind = _decaying_sums(pieces[0], (nodes - nodes[0]) / length)
+        ahead = _decaying_sums(pieces[1, ::-1], (nodes[-1] - nodes[::-1]) / length)[::-1]
         share = (left / (left + right))[:, None]
         here = (1.0 - share) * lines[at] + share * lines[at + 1]
         outside = np.exp(-np.abs(x - inside) / length)[:, None]
@@ -225,13 +239,20 @@ class PiecewiseLoads:
         return np.asarray(long[:, None] * tail_moments[0] - sheet.sheared * short)
 
 
-def _decaying_sums(pieces: Array, decays: list[float]) -> Array:
-    """Return sums of rows, each of which has decayed from row to row, (m, n); changes ``pieces``.
+def _decaying_sums(pieces: Array, places: Array) -> Array:
+    """Return int exp(s - x) t ds up to given places, (m, n), from pieces up to each of them.
 
-    ``decays``: (m - 1,) factors from one row to the next.
+    They are cumulative sums of exp(s) t, which keep their accuracy as exp(s) grows, but overflow:
+    each stretch of ``places`` has its own origin. Changes ``pieces``.
     """
-    for before, row, decay in zip(pieces[:-1], pieces[1:], decays, strict=True):
-        row += decay * before
+    starts = np.unique(places // _STRETCH, return_index=True)[1]
+    for first, last in pairwise([*starts.tolist(), places.size]):
+        if first > 0:
+            pieces[first] += np.exp(places[first - 1] - places[first]) * pieces[first - 1]
+        grown, some = np.exp(places[first:last] - places[first])[:, None], pieces[first:last]
+        some *= grown
+        np.cumsum(some, axis=0, out=some)
+        some /= grown
     return pieces
 
 

@@ -20,11 +20,11 @@ _STEEP = 4.0  # exponent of the blend between exact and lumped integrals of the 
 def influence_matrices(
     meshes: tuple[Mesh, Mesh],
     loads: tuple[PiecewiseLoads, PiecewiseLoads],
-    path_shears: tuple[PiecewiseLoads, PiecewiseLoads],
+    arcs: tuple[Array, Array],
 ) -> tuple[Array, Array]:
     """Return gaps and creeps, and rotations of the sheet, per unit traction.
 
-    ``loads``, ``path_shears``: see `PlateProblem`.
+    ``loads``, ``arcs``: see `PlateProblem`.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def influence_matrices(
     turned = np.empty((x.size, 2 * (n + m)))
     for by, columns in enumerate(places):
         made, turned[:, columns] = _by_sheet(
-            meshes, (loads[by], path_shears[by]), by, own, (tails[by], faces[by][0], faces[by][2])
+            meshes, (loads[by], arcs[by]), by, own, (tails[by], faces[by][0], faces[by][2])
         )
         made[1, :, 1] += by_shears[by]
         for at, block in enumerate((matrix[: 2 * n, columns], matrix[2 * n :, columns])):
@@ -74,7 +74,7 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 
 def _by_sheet(
     meshes: tuple[Mesh, Mesh],
-    tractions: tuple[PiecewiseLoads, PiecewiseLoads],
+    tractions: tuple[PiecewiseLoads, Array],
     by: int,
     own: Array,
     known: tuple[Array, Array, Array],
@@ -86,7 +86,7 @@ def _by_sheet(
 
     Parameters
     ----------
-    tractions : ``loads`` and ``path_shears`` on the interface ``by``, see `PlateProblem`.
+    tractions : ``loads`` and ``arcs`` of the interface ``by``, see `PlateProblem`.
     by : the loaded interface, 0 the upper and 1 the lower.
     own : (m - 1,) see `_lumped_share`.
     known : tail moments of the loads at the places, and the displacements of the faces by pressures
@@ -98,31 +98,28 @@ def _by_sheet(
     up to the next place, per pressure and shear; the entry between the two meshes is meaningless.
     And (m, 2 n) rotations of the sections at the places.
     """
-    loads, path_shears = tractions
+    loads, arcs = tractions
     sheet, half, there = loads.sheet, 0.5 * loads.sheet.thickness, SIGNS[by]
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_far = (np.arange(x.size) < meshes[0].nodes.size - 1) == by
     here = np.where(is_far[:-1], -there, there)[:, None]
     signs = here * there
-    load_tails, indented, warped = known
-    shear_tails = load_tails if path_shears is loads else path_shears.tail_moments_at(x)
-    height, slope, bend = loads.deflection(x, load_tails)
+    tails, indented, warped = known
+    height, slope, bend = loads.deflection(x, tails)
     out = np.empty((2, x.size - 1, 2, loads.lines.shape[1]))
     # y is driven by -p_u and +p_l; the upper gap contains -y, the lower one +y
     out[0, :, 0] = signs * height[:-1] + indented[:-1]
-    tilted = (
-        warped if path_shears is loads else path_shears.stretch_integral(x, is_far, shear_tails)
-    )
-    out[0, :, 1] = half * here * slope[:-1] - there * tilted[:-1]
+    out[0, :, 1] = half * here * slope[:-1] - there * arcs * warped[:-1]
     out[1, :, 0] = here * _changes(warped)
     out[1, :, 0] -= there * half * _changes(slope)
-    exact = _stretched(sheet, signs, _changes(moments_about(x, shear_tails, 1)), _changes(bend))
+    pulled = arcs * _changes(moments_about(x, tails, 1))
+    exact = _stretched(sheet, signs, pulled, _changes(bend))
     share = _lumped_share(sheet, np.diff(x), own)
     if share.any():
         ahead = meshes[by].inner - x[:, None]
         bends = loads.plate.curvature(ahead)
         lumped = _stretched(sheet, signs, _changes(np.maximum(ahead, 0.0)), _changes(bends))
-        exact += share * (path_shears.total * lumped - exact)
+        exact += share * (arcs * loads.total * lumped - exact)
     out[1, :, 1] = exact
     return out, np.concatenate([-there * slope, -half * bend], axis=1)
 

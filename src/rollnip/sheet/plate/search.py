@@ -60,7 +60,9 @@ _MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not ch
 _MOST_NODES = 320  # of a mesh whose states are determined all at once
 _MOST_CHANGES = 3  # of the zones' states, before the search starts again
 _MOST_ITERATIONS = 25
-_STILL = 0.1  # of the tolerance: last change of the lagged terms
+# Last change of the lagged terms, over the tolerance and at most. In the coarse contacts of
+# "finite", whose tolerance is large, more than that moves the edges beside stiff peaks to and fro.
+_STILL = 0.1, 1e-4
 
 
 _Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
@@ -241,7 +243,7 @@ class PlateSearch:
     def _path_ratios(
         self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
-        """Return ds/dx of the sheet's path in the previous solution, at both meshes' fine nodes."""
+        """Return ds/dx of the sheet's path in the previous solution, at both meshes' nodes."""
         if before is None or self.model.geometry not in FINITE:
             return None
         out = []
@@ -249,7 +251,7 @@ class PlateSearch:
             x = own.fine.nodes[1:]
             u = own.finer(before.problem.displacements(before.state, side))
             ratio = path_ratio(x, self.nip, side, u)
-            out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
+            out.append(np.interp(new.inner, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
     def _kernels_for(self, before: PlateIterate | None, side: int) -> PairKernels:
@@ -275,7 +277,7 @@ class PlateSearch:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, settled_change = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, min(_STILL[0] * self.model.tolerance, _STILL[1])
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1

@@ -152,13 +152,12 @@ class PlateSolution(SheetSolution):
     def _height(self) -> Array:
         """Height of the sheet's path at ``_points``, without its thickness [mm]."""
         iterate = self._iterate
-        return iterate.problem.height_at(iterate.state, self._points[0], iterate.lagged.curved)
+        return iterate.problem.path_at(iterate.state, self._points[0], iterate.lagged.curved)[0]
 
     @cached_property
-    def _thinned_faces(self) -> Array:
-        iterate = self._iterate
-        known = iterate.lagged.known
-        return iterate.problem.face_indentations_at(iterate.state, known, self._points[0])
+    def _thinned_faces(self) -> list[Array]:
+        iterate, x = self._iterate, self._points[0]
+        return iterate.problem.face_indentations_at(iterate.state, iterate.lagged.known, (x, x))
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
@@ -203,7 +202,7 @@ class PlateSolution(SheetSolution):
         strain = problem.strain_at(state, iterate.lagged.known, x)
         face = 0.5 * (strain[1:] + strain[:-1])
         curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
-        turned = direction_of(problem.rotation_at(state, x, curved), curved)
+        turned = direction_of(problem.path_at(state, x, curved)[1], curved)
         face -= SIGNS[side] * half * np.diff(turned) / dx
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
@@ -221,7 +220,7 @@ def plate_mesh_solution(refined: Refined[PlateIterate]) -> MeshSolution:
     iterate = refined.iterate
     state, problem = iterate.state, iterate.problem
     upper, lower = problem.meshes
-    shear_lower = values_at(lower, upper.inner) @ state.shear[1]
+    shear_lower = values_at(lower, state.shear[1], upper.inner)
     one = state.side(0)
     both = MembraneState(
         states=one.states,

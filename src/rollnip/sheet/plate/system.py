@@ -120,7 +120,7 @@ class PlateProblem:
     ----------
     nip, sheet, plate : the physical problem.
     meshes, loads : of the upper and the lower interface.
-    path_shears : shears along the sheet's path, whose `tail_moments` are int x^k/k! q ds.
+    arcs : ds/dx of the sheet's path at the nodes of both meshes.
     frictions : coefficients of both interfaces.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].
@@ -133,7 +133,7 @@ class PlateProblem:
     plate: Plate
     meshes: tuple[Mesh, Mesh]
     loads: tuple[PiecewiseLoads, PiecewiseLoads]
-    path_shears: tuple[PiecewiseLoads, PiecewiseLoads]
+    arcs: tuple[Array, Array]
     frictions: tuple[float, float]
     matrix: Array
     rotation_influence: Array
@@ -144,7 +144,7 @@ class PlateProblem:
     ) -> PlateProblem:
         """Assemble the problem of a nip with a plate on meshes of both interfaces.
 
-        ``arcs``: ds/dx of the sheet's path at the fine nodes of each mesh; None: all 1.
+        ``arcs``: ds/dx of the sheet's path at the nodes of each mesh; None: all 1.
         """
         sheet = nip.sheet
         assert sheet is not None
@@ -153,15 +153,10 @@ class PlateProblem:
             PiecewiseLoads.on(meshes[0], sheet, plate),
             PiecewiseLoads.on(meshes[1], sheet, plate),
         )
-        path_shears = loads
-        if arcs is not None:
-            upper, lower = (
-                PiecewiseLoads.on(mesh, sheet, plate, along)
-                for mesh, along in zip(meshes, arcs, strict=True)
-            )
-            path_shears = upper, lower
-        made = influence_matrices(meshes, loads, path_shears)
-        return cls(nip, sheet, plate, meshes, loads, path_shears, frictions_of(nip), *made)
+        if arcs is None:
+            arcs = np.ones(meshes[0].inner.size), np.ones(meshes[1].inner.size)
+        made = influence_matrices(meshes, loads, arcs)
+        return cls(nip, sheet, plate, meshes, loads, arcs, frictions_of(nip), *made)
 
     @property
     def starts(self) -> tuple[int, int, int, int, int]:
@@ -217,8 +212,9 @@ class PlateProblem:
 
     def forces(self, traction: Array, side: int) -> Array:
         """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        one, mesh = self.path_shears[side], self.meshes[side]
-        return np.asarray(-np.diff(one.of(traction).tail_moments_at(mesh.inner)[0, :, 0]))
+        x, along = self.meshes[side].inner, self.arcs[side] * traction
+        beyond = self.loads[side].forces_beyond(x, along)
+        return np.asarray(-np.diff(beyond))
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
         """Return the displacements of one roller at nodes[1:] of its interface."""
@@ -229,30 +225,26 @@ class PlateProblem:
     def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
         upper, lower = (
-            one.of(shear).tail_moments_at(x)[0, :, 0]
-            for one, shear in zip(self.path_shears, state.shear, strict=True)
+            one.forces_beyond(x, arcs * shear)
+            for one, arcs, shear in zip(self.loads, self.arcs, state.shear, strict=True)
         )
         return np.asarray(known.at(x) - upper + lower)
 
-    def height_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the height of the sheet's middle at given places, (m,) [mm]."""
-        out = state.height + state.rotation * x
-        if curved is not None:
-            out += curved.deflection_at(x)[0]
+    def path_at(
+        self, state: PlateState, x: Array, curved: CurvedLoad | None = None
+    ) -> tuple[Array, Array]:
+        """Return height [mm] and rotation of the sheet's middle at given places, each (m,)."""
+        height, turned = state.height + state.rotation * x, np.full(x.size, state.rotation)
         half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
-            out -= SIGNS[side] * pressed[0] + half * sheared[1]
-        return np.asarray(out)
-
-    def rotation_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
-        """Return the rotation of the sheet's sections at given places, (m,)."""
-        out = np.full(x.size, state.rotation)
+        for side, one in enumerate(self.loads):
+            both = one.of(np.stack([state.pressure[side], state.shear[side]], axis=1))
+            made = both.deflection(x, both.tail_moments_at(x))
+            height -= SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
+            turned -= SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
         if curved is not None:
-            out += curved.deflection_at(x)[1]
-        half = 0.5 * self.sheet.thickness
-        for side, (pressed, sheared) in enumerate(self._deflections_at(state, x)):
-            out -= SIGNS[side] * pressed[1] + half * sheared[2]
-        return out
+            lifted, bent = curved.deflection_at(x)
+            height, turned = height + lifted, turned + bent
+        return height, turned
 
     def rotations(self, state: PlateState, curved: CurvedLoad | None = None) -> tuple[Array, Array]:
         """Return the rotation of the sheet's sections at nodes[1:] of both meshes."""
@@ -262,31 +254,28 @@ class PlateProblem:
         upper, lower = np.split(out, [self.meshes[0].nodes.size - 1])
         return upper, lower
 
-    def _deflections_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
-        """Return the deflections by pressure and by shear, see `PiecewiseLoads.deflection`."""
-        out = []
-        for one, *tractions in zip(self.loads, state.pressure, state.shear, strict=True):
-            both = one.of(np.stack(tractions, axis=1))
-            made = both.deflection(x, both.tail_moments_at(x))
-            out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
-        return out
+    def face_indentations_at(
+        self, state: PlateState, known: KnownTension, places: tuple[Array, Array]
+    ) -> list[Array]:
+        """Return the displacements of both faces towards the middle, each (m,) [mm].
 
-    def face_indentations_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
-        """Return the displacement of both faces towards the middle at given places, (2, m) [mm]."""
-        both = np.tile(x, 2)
-        out = np.tile(0.5 * self.sheet.stretch_by_pressure * known.at(x), (2, 1))
+        ``places``: on the upper and on the lower face.
+        """
+        x, ends = np.concatenate(places), [places[0].size]
+        is_lower = np.arange(x.size) >= ends[0]
+        out = 0.5 * self.sheet.stretch_by_pressure * known.at(x)
         for side, one in enumerate(self.loads):
-            far = np.repeat(np.arange(2) != side, x.size)
-            pulled = self.path_shears[side].of(state.shear[side])
-            warped = pulled.stretch_integral(both, far, pulled.tail_moments_at(both))
-            made = one.of(state.pressure[side]).face_indentation(both, far) - SIGNS[side] * warped
-            out += made.reshape(2, x.size)
-        return out
+            far = is_lower if side == 0 else ~is_lower
+            pulled = one.of(self.arcs[side] * state.shear[side])
+            warped = pulled.stretch_integral(x, far, pulled.tail_moments_at(x))
+            made = one.of(state.pressure[side]).face_indentation(x, far) - SIGNS[side] * warped
+            out += made[:, 0]
+        return np.split(out, ends)
 
     def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the strain of the sheet's middle at given places, (m,)."""
         pressed = sum(
-            values_at(mesh, x) @ p for mesh, p in zip(self.meshes, state.pressure, strict=True)
+            values_at(mesh, p, x) for mesh, p in zip(self.meshes, state.pressure, strict=True)
         )
         strain = self.sheet.stretch_by_tension * self.tension_at(state, known, x)
         return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
@@ -311,8 +300,8 @@ class PlateProblem:
         x = mesh.nodes[1:]
         tension = known.over(x)
         for number, one in enumerate(self.loads):
-            pulled = self.path_shears[number].of(state.shear[number]).tail_moments_at(x)
+            pulled = one.of(self.arcs[number] * state.shear[number]).tail_moments_at(x)
             tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
-            pressed -= np.diff(one.of(state.pressure[number]).tail_moments_at(x)[0, :, 0])
+            pressed -= np.diff(one.forces_beyond(x, state.pressure[number]))
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

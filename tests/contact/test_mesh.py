@@ -179,7 +179,7 @@ def of_unit_zones(elements, crowding=None):
 def test_nothing_is_carried_between_other_zones():
     one = of_unit_zones((8,))
     assert carry(one, of_unit_zones((8, 8))) is None
-    assert carry(one, of_unit_zones((8,), (0.25,))) is None
+    assert carry(one, of_unit_zones((8,), ((0.25, 0.25),))) is None
     assert carry(Subdivision(np.arange(9.0)), Subdivision(np.arange(9.0))) is None
 
 
@@ -187,7 +187,7 @@ def test_nothing_is_carried_between_other_zones():
 def test_crowded_nodes_share_a_boundary_layer(crowd):
     """y goes as the square of the number up to y = r, in even steps of log(y) from there."""
     n = 240
-    nodes = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), (crowd,))[1:-1]
+    nodes = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), ((crowd, crowd),))[1:-1]
     assert np.all(np.diff(nodes) > 0.0)
     np.testing.assert_allclose(nodes + nodes[::-1], 1.0, atol=1e-12)
     assert nodes[2] / nodes[1] == pytest.approx(4.0, rel=0.02)
@@ -201,18 +201,32 @@ def test_crowded_nodes_share_a_boundary_layer(crowd):
 def test_crowding_of_one_is_cosine_places():
     breaks, elements = np.array([0.0, 1.0, 3.0]), np.array([9, 14])
     np.testing.assert_array_equal(
-        cosine_nodes(breaks, elements), cosine_nodes(breaks, elements, (1.0, 1.0))
+        cosine_nodes(breaks, elements), cosine_nodes(breaks, elements, ((1.0, 1.0),) * 2)
     )
-    limit = cosine_nodes(breaks, elements, (1.0 - 1e-9, 1.0 - 1e-9))
+    limit = cosine_nodes(breaks, elements, ((1.0 - 1e-9,) * 2,) * 2)
     np.testing.assert_allclose(limit, cosine_nodes(breaks, elements), atol=1e-8)
+
+
+def test_nodes_crowd_at_one_end_alone():
+    """Each end is that of a zone whose nodes crowd as much at both, with as many elements a layer."""
+    n, crowd = 400, 2.0**-10
+    lone = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), ((1.0, crowd),))[1:-1]
+    first, last = lone[1], 1.0 - lone[-2]
+    assert last / first == pytest.approx(crowd, rel=1e-3)
+    np.testing.assert_allclose(lone[2] / first, 4.0, rtol=1e-2)
+    np.testing.assert_allclose((1.0 - lone[-3]) / last, 4.0, rtol=1e-2)
+    mirrored = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), ((crowd, 1.0),))[1:-1]
+    np.testing.assert_allclose(mirrored, 1.0 - lone[::-1], atol=1e-12)
+    least = more_elements((1.0, crowd))
+    assert 1.0 < least < more_elements((crowd, crowd))
 
 
 def test_nodes_crowd_where_the_boundary_layer_is_short():
     breaks = np.array([0.0, 1.0, 101.0])
-    assert crowding_of(breaks, np.inf) == (1.0, 1.0)
+    assert crowding_of(breaks, np.inf) == ((1.0, 1.0),) * 2
     few, many = crowding_of(breaks, 0.01)
-    assert 0.02 < few < 0.09
-    assert 2e-4 < many < 9e-4
+    assert 0.02 < few[0] == few[1] < 0.09
+    assert 2e-4 < many[0] == many[1] < 9e-4
     assert crowding_of(breaks, 0.0101) == (few, many)  # zones that move a little have the same
     even = elements_of_zones(breaks, 40)
     more = elements_of_zones(breaks, 40, (few, many))
@@ -225,8 +239,8 @@ def test_a_boundary_layer_of_a_thousandth_is_followed_by_crowded_nodes():
 
     def missed_by(crowd):
         counts = np.array([48])
-        nodes = cosine_nodes(np.array([-1.0, 1.0]), counts, (crowd,))
-        fine = subdivided(nodes, counts, (crowd,))
+        nodes = cosine_nodes(np.array([-1.0, 1.0]), counts, ((crowd, crowd),))
+        fine = subdivided(nodes, counts, ((crowd, crowd),))
 
         def traction(x):
             y = np.maximum(1.0 - x * x, 0.0)
@@ -241,8 +255,8 @@ def test_a_boundary_layer_of_a_thousandth_is_followed_by_crowded_nodes():
 def test_tractions_on_crowded_nodes_act_with_the_means_of_their_cubics(crowd):
     def lacking(n):
         counts = np.array([n])
-        nodes = cosine_nodes(np.array([0.0, 1.0]), counts, (crowd,))
-        fine = subdivided(nodes, counts, (crowd,))
+        nodes = cosine_nodes(np.array([0.0, 1.0]), counts, ((crowd, crowd),))
+        fine = subdivided(nodes, counts, ((crowd, crowd),))
         values = np.sin(np.pi * nodes)
         values[[0, 1, -2, -1]] = 0.0
         acting, dx = fine.acting @ values, np.diff(fine.nodes)
@@ -260,9 +274,9 @@ def test_error_of_cubics_is_that_of_a_quartic(elements):
         values.extend(values[-1] + np.arange(1, n + 1) ** 4.0)
     nodes = 0.5 * np.arange(len(values))
     expected = 0.5 * sum(n - 3 for n in elements) * 24.0 * 3.0 / 128.0
-    even = (1.0,) * len(elements)
+    even = ((1.0, 1.0),) * len(elements)
     assert cubic_error(np.array(values), nodes, elements, even) == pytest.approx(expected)
-    assert cubic_error(np.arange(9.0) ** 3, np.arange(9.0), (8,), (1.0,)) < 1e-12
+    assert cubic_error(np.arange(9.0) ** 3, np.arange(9.0), (8,), ((1.0, 1.0),)) < 1e-12
 
 
 def test_an_error_in_a_boundary_layer_counts_more_than_one_in_the_middle():
@@ -272,7 +286,7 @@ def test_an_error_in_a_boundary_layer_counts_more_than_one_in_the_middle():
     def counted(place):
         values = np.zeros(nodes.size)
         values[place] = 1.0  # fourth differences of 1, 4, 6, 4, 1 around it
-        even, crowded = (cubic_error(values, nodes, (100,), (ratio,)) for ratio in (1.0, r))
+        even, crowded = (cubic_error(values, nodes, (100,), ((ratio, ratio),)) for ratio in (1.0, r))
         return crowded / even
 
     for place, expected in ((50, 0.5**-0.5), (20, 0.2**-0.5), (80, 0.2**-0.5)):

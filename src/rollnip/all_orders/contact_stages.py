@@ -276,7 +276,7 @@ def _with_moved_ends(
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
         search = SearchState(layout, replace(latest, second=second), misplacement=_COARSE_TOLERANCE)
-        is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
+        is_crowded = not grips_skin(nip) and min(map(min, latest.mesh.fine.crowding)) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solve_at_moved_ends(search)
             found = found or placing.solve(

@@ -2,10 +2,11 @@
 
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
+from rollnip.contact.edge_exponents import left_out_of_creep, left_out_of_tractions
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
 from rollnip.contact.free_ends import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
-    CREEP_TO_EDGE,
+    Crowding,
     Subdivision,
     carry,
     cosine_nodes,
@@ -14,8 +15,10 @@ from rollnip.contact.mesh import (
     elements_of_zones,
     more_elements,
     subdivided,
+    uncrowded,
 )
 from rollnip.contact.methods import GivenStates, Safeguarded
+from rollnip.contact.missing_slip import TurningSlip, slip_by_turning, slipping_at_edges
 from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
@@ -28,7 +31,6 @@ from rollnip.contact.problem import (
 )
 
 __all__ = [
-    "CREEP_TO_EDGE",
     "NEAR_ENOUGH",
     "Complementary",
     "ContactProblem",
@@ -36,6 +38,7 @@ __all__ = [
     "ContactZone",
     "Control",
     "CoupledActiveSet",
+    "Crowding",
     "GivenStates",
     "Inequalities",
     "Layout",
@@ -43,6 +46,7 @@ __all__ = [
     "State",
     "States",
     "Subdivision",
+    "TurningSlip",
     "carry",
     "contact_intervals",
     "contact_zones",
@@ -54,8 +58,13 @@ __all__ = [
     "gap",
     "influence_of",
     "interior_point",
+    "left_out_of_creep",
+    "left_out_of_tractions",
     "more_elements",
     "next_slip",
     "next_states",
+    "slip_by_turning",
+    "slipping_at_edges",
     "subdivided",
+    "uncrowded",
 ]

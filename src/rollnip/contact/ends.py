@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import copysign, inf, sqrt
+from typing import TypeVar
 
 import numpy as np
 
-from rollnip.contact.problem import Array, ContactState, State
+from rollnip.contact.edge_exponents import turned_back
+from rollnip.contact.problem import Array, ContactState
 
 # Discrete form of the inverse square root that a misplaced end leaves: the change of a square-root
 # traction, relative to it, at the first three nodes inside a zone of many cubic elements
@@ -15,39 +17,57 @@ from rollnip.contact.problem import Array, ContactState, State
 # a half-plane (tests).
 RESPONSE = (-0.6831, -0.1132, -0.0597)
 
-_Three = Sequence[float]
+Three = Sequence[float]
+_Number = TypeVar("_Number", float, complex)
 
 
-def slip_beside(
-    x: Array, state: ContactState, friction: float, edge: int, *, leads: bool
-) -> tuple[float, State]:
-    """Return the length of a slip zone missing between stick and an edge, and its state.
-
-    Leaving out a slip zone much shorter than the elements changes mu p - |q| as misplacing the end
-    of stick outwards by its length does. Other effects that three nodes mistake for it depend on
-    the spacing of the nodes. So the length is accepted only if it agrees, to within itself, with
-    the length from nodes twice as far apart; otherwise it is 0.
+def proposed_move(
+    nodes: Sequence[float],
+    tractions: Sequence[complex],
+    end: int,
+    inwards: int,
+    weight: complex,
+    kappa: complex,
+    furthest: int,
+) -> float:
+    """Return how far outwards the end of a zone should move; see `outward_move`.
 
     Parameters
     ----------
-    edge : index in ``x`` of the node at the edge.
-    leads : whether it is the leading edge of its piece of the contact.
+    nodes, tractions : of the mesh, and p + i q at them.
+    end : index of the node at the end.
+    inwards : 1 or -1, step of the index into the zone.
+    weight : of p + i q, of which the real part vanishes at the end.
+    kappa : see `edge_exponents`.
+    furthest :
+        0 at an end with a square root. At a smooth end, the most elements between the nodes used:
+        values at the first nodes may be no larger than their errors, and if they propose a place
+        beyond their own reach, nodes further inside are tried.
     """
-    inwards = -1 if leads else 1
-    for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
-        lengths = []
-        for apart in (1, 2):
-            beside = edge + inwards * apart * np.array([1, 2, 3])
-            distance = np.abs(x[beside] - x[edge]).tolist()
-            values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
-            lengths.append(-outward_move(distance, values, smooth=leads))
-        near, far = lengths
-        if abs(far - near) < near < inf:
-            return near, slip
-    return 0.0, State.STICK
+    move, reach, apart = inf, 0.0, 1
+    while abs(move) > reach and apart <= max(furthest, 1):
+        beside = [end + inwards * apart * i for i in (1, 2, 3)]
+        distance = [abs(nodes[i] - nodes[end]) for i in beside]
+        back = turned_back([tractions[i] for i in beside], distance, kappa)
+        values = [(weight * one).real for one in back]
+        move, apart = outward_move(distance, values, smooth=furthest > 0), 2 * apart
+        reach = distance[-1]
+    return move
 
 
-def outward_move(distance: _Three, values: _Three, *, smooth: bool) -> float:
+def singular_part(x: Array, state: ContactState, end: int, inwards: int) -> float:
+    """Return the inverse square root in the pressure beside an edge, times its first distance.
+
+    ``end``, ``inwards``: as in `proposed_move`.
+    """
+    beside = end + inwards * np.array([1, 2, 3])
+    distance = np.abs(x[beside] - x[end])
+    right = state.pressure[beside] / np.sqrt(distance)
+    patterns = np.stack([np.ones(3), distance, np.array(RESPONSE)], axis=1)
+    return float(np.linalg.solve(patterns, right)[2] * distance[0])
+
+
+def outward_move(distance: Three, values: Three, *, smooth: bool) -> float:
     """Return how far outwards the end of a zone should move, from values at three nodes inside it.
 
     The values are fitted by s, s^3 and a third function, s being the square root of the distance
@@ -58,18 +78,18 @@ def outward_move(distance: _Three, values: _Three, *, smooth: bool) -> float:
     first = (1.0, 1.0, 1.0)
     third = [d * d for d in distance] if smooth else RESPONSE
     right = [value / sqrt(d) for value, d in zip(values, distance, strict=True)]
-    whole = _determinant(first, distance, third)
-    root = _determinant(right, distance, third)
+    whole = determinant(first, distance, third)
+    root = determinant(right, distance, third)
     if smooth:
-        bend = _determinant(first, right, third)
+        bend = determinant(first, right, third)
         return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
-    misplaced = _determinant(first, distance, right)
+    misplaced = determinant(first, distance, right)
     if root * whole > 0.0:
         return -misplaced / root * distance[0]
     return copysign(inf, -misplaced * whole)
 
 
-def _determinant(a: _Three, b: _Three, c: _Three) -> float:
+def determinant(a: Sequence[_Number], b: Three, c: Three) -> _Number:
     """Return the determinant of the matrix with these three columns."""
     return (
         a[0] * (b[1] * c[2] - b[2] * c[1])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,6 +51,25 @@ def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, floa
         else:
             intervals.append((zone.start, zone.stop))
     return tuple(intervals)
+
+
+def with_stick_between(zones: tuple[ContactZone, ...], share: float) -> tuple[ContactZone, ...]:
+    """Return the zones with short stick zones between adjoining slip zones of opposite sign.
+
+    The stick takes a share of the shorter slip zone, on either side.
+    """
+    out = list(zones[:1])
+    for zone in zones[1:]:
+        before = out[-1]
+        slips = STICK not in (before.state, zone.state) and before.state != zone.state
+        if slips and before.stop == zone.start:
+            reach = share * min(before.stop - before.start, zone.stop - zone.start)
+            start, stop = before.stop - reach, zone.start + reach
+            out[-1] = replace(before, stop=start)
+            out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]
+        else:
+            out.append(zone)
+    return tuple(out)
 
 
 def runs(mask: Mask) -> list[tuple[int, int]]:

@@ -12,14 +12,18 @@ derivative known beforehand: from an error of a whole element, one step leaves a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
 
 import numpy as np
 
-from rollnip.contact.ends import RESPONSE, outward_move, slip_beside
-from rollnip.contact.features import ContactZone, transition
+from rollnip.contact.edge_exponents import exponent_at_leading_edge
+from rollnip.contact.ends import (
+    proposed_move,
+    singular_part,
+)
+from rollnip.contact.features import ContactZone, transition, with_stick_between
 from rollnip.contact.problem import (
     FREE,
     STICK,
@@ -67,7 +71,7 @@ class Layout:
         A short stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
-        zones = _with_stick_between(zones)
+        zones = with_stick_between(zones, NEAR_ENOUGH)
         if not zones:
             return None
         breaks, states = [zones[0].start], []
@@ -230,25 +234,35 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
-    def without_short_zones(self, least: float, *, keeps_stick: bool) -> Layout:
+    def without_short_zones(self, least: float, known: Layout, *, keeps_stick: bool) -> Layout:
         """Return the layout without zones shorter than ``least`` [mm], removing the shortest first.
 
-        It stops at the first zone that cannot be removed, see `without`.
+        It keeps those that overlap a zone of ``known`` in the same state, and stops at the first
+        zone that cannot be removed, see `without`.
         """
         layout = self
-        while np.min(np.diff(layout.breaks)) < least:
-            fewer = layout.without(int(np.argmin(np.diff(layout.breaks))), keeps_stick=keeps_stick)
-            if fewer is None:
-                break
+        while True:
+            lengths = np.where(layout._overlaps(known), np.inf, np.diff(layout.breaks))
+            shortest = int(np.argmin(lengths))
+            fewer = layout.without(shortest, keeps_stick=keeps_stick)
+            if fewer is None or lengths[shortest] >= least:
+                return layout
             layout = fewer
-        return layout
+
+    def _overlaps(self, other: Layout) -> Mask:
+        """Return which zones overlap a zone of ``other`` in the same state."""
+        starts = np.maximum(self.breaks[:-1, None], other.breaks[:-1])
+        stops = np.minimum(self.breaks[1:, None], other.breaks[1:])
+        return np.asarray(((self.states[:, None] == other.states) & (starts < stops)).any(axis=1))
 
     @property
     def reversals(self) -> list[int]:
-        """Numbers of the zones of stick that have slip of opposite signs on their two sides."""
-        signs = shear_signs(self.states)
+        """Numbers of the zones of stick where slip changes its sign, shorter than that slip."""
+        signs, lengths = shear_signs(self.states), np.diff(self.breaks)
         opposite = signs[:-2] * signs[2:] == -1.0
-        return (np.flatnonzero(opposite & (self.states[1:-1] == STICK)) + 1).tolist()
+        between = opposite & (self.states[1:-1] == STICK)
+        between &= lengths[1:-1] < lengths[:-2] + lengths[2:]
+        return (np.flatnonzero(between) + 1).tolist()
 
     def with_reversals(self, proposed: Layout, least: float) -> Layout:
         """Return the proposed zones with a stick of some length wherever slip changes its sign.
@@ -288,6 +302,14 @@ class Layout:
         zones = (ContactZone(float(a), float(b), State(int(s))) for a, b, s in ends)
         return tuple(zone for zone in zones if zone.state != FREE)
 
+    @property
+    def slip_beyond_stick(self) -> Array:
+        """Return for each stick zone the length of slip between it and a leading edge, else inf."""
+        leads = np.append(self.states[2:] == FREE, [True, False])[: self.states.size]
+        beyond = np.append(np.diff(self.breaks)[1:], np.inf)
+        slips = np.append(self.states[1:] > STICK, False)
+        return np.where((self.states == STICK) & slips & leads, beyond, np.inf)
+
     def ends(self, x: Array) -> Indices:
         """Return the indices of the nodes at the breaks, (m + 1,)."""
         return np.searchsorted(x, self.breaks - 1e-12 * self.width)
@@ -305,7 +327,26 @@ class Layout:
         out[ends[self.is_edge]] = FREE
         return out
 
-    def with_proposed_ends(self, x: Array, state: ContactState, friction: float) -> Layout:
+    def edge_exponents(self, beta: float, friction: float) -> tuple[complex, ...]:
+        """Return the exponents at all edges, trailing edge first, see `contact.edge_exponents`."""
+        out = []
+        for number in np.flatnonzero(self.is_edge).tolist():
+            leads = self.leads(number)
+            state = int(self.states[number - leads])
+            out.append((1.0 if leads else -1.0) * exponent_at_leading_edge(state, beta, friction))
+        return tuple(out)
+
+    def leads(self, edge: int) -> bool:
+        """Return whether the edge with the number of its break is a leading edge."""
+        return edge == self.states.size or bool(self.states[edge] == FREE)
+
+    def with_proposed_ends(
+        self,
+        x: Array,
+        state: ContactState,
+        friction: float,
+        exponents: tuple[complex, ...] = (),
+    ) -> Layout:
         """Return the layout with its breaks where a solution with its states proposes them.
 
         The pressure at an edge, and mu p - |q| at the trailing end of stick, vanish as a square
@@ -317,54 +358,26 @@ class Layout:
         x : (n,) nodes, those at the breaks among them [mm].
         state : a solution with ``states_on(x)``.
         friction : Coulomb coefficient.
+        exponents : see `edge_exponents`; empty: square roots at all edges.
         """
         # Lists, not arrays: NumPy would be slower for three values at each of a few breaks.
-        nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
+        nodes, tractions = x.tolist(), (state.pressure + 1j * state.shear).tolist()
         signs, ends = shear_signs(self.states).tolist(), self.ends(x).tolist()
-        last, edges = self.states.size, self.is_edge.tolist()
-        breaks = []
+        edges = self.is_edge.tolist()
+        kappas, breaks = iter(exponents), []
         for number, (place, end) in enumerate(zip(self.breaks.tolist(), ends, strict=True)):
             is_edge = edges[number]
             smooth = not is_edge and self.states[number - 1] == STICK
-            leads = number == last or self.states[number] == FREE
-            inwards = -1 if smooth or leads else 1
+            inwards = -1 if smooth or (is_edge and self.leads(number)) else 1
             # The sign is that of the slip zone: in a short stick zone the shear may change sign.
             sign = 0 if is_edge else signs[number if smooth else number - 1]
-            bound = 1.0 if is_edge else friction
-            # At a smooth end the values at the first nodes may be no larger than their errors. If
-            # they propose a place beyond their own reach, nodes further inside are tried.
-            furthest = (end - ends[number - 1]) // 3 if smooth else 1
-            step, reach, apart = inf, 0.0, 1
-            while abs(step) > reach and apart <= furthest:
-                beside = [end + inwards * apart * i for i in (1, 2, 3)]
-                distance = [abs(nodes[i] - place) for i in beside]
-                values = [bound * pressure[i] - sign * shear[i] for i in beside]
-                step, apart = outward_move(distance, values, smooth=smooth), 2 * apart
-                reach = distance[-1]
+            kappa = next(kappas, 0j) if is_edge else 0j
+            weight = (1.0 if is_edge else friction) + 1j * sign
+            # At a smooth end nodes further inside are tried, see `proposed_move`.
+            furthest = (end - ends[number - 1]) // 3 if smooth else 0
+            step = proposed_move(nodes, tractions, end, inwards, weight, kappa, furthest)
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
-
-    def slipping_at_edges(
-        self, x: Array, state: ContactState, friction: float, least: float
-    ) -> Layout:
-        """Return the layout with slip zones added at edges where stick leaves out some slip.
-
-        ``least``: length of the shortest slip zone to add [mm]; other arguments as in
-        `with_proposed_ends`.
-        """
-        ends, breaks, states = self.ends(x), self.breaks.tolist(), self.states.tolist()
-        for edge in np.flatnonzero(self.is_edge)[::-1].tolist():
-            for leads in (False, True):
-                zone = edge - leads
-                if not 0 <= zone < self.states.size or self.states[zone] != STICK:
-                    continue
-                length, slip = slip_beside(x, state, friction, int(ends[edge]), leads=leads)
-                if length > least:
-                    place = float(self.breaks[edge])
-                    breaks.insert(edge + (not leads), place - length if leads else place + length)
-                    states.insert(edge, slip)
-        found = Layout(np.array(breaks), np.array(states, dtype=np.int8))
-        return found if found.is_proper else self
 
     def singular(self, x: Array, state: ContactState) -> Array:
         """Return the amplitudes of the inverse square roots in the pressure at both edges, (2,).
@@ -372,28 +385,5 @@ class Layout:
         Each is the factor of the square root at that edge times the move that the edge needs,
         positive towards the leading edge [MPa sqrt(mm)].
         """
-        ends = self.ends(x)
-        out = []
-        for end, inwards in ((ends[0], 1), (ends[-1], -1)):
-            beside = end + inwards * np.array([1, 2, 3])
-            distance = np.abs(x[beside] - x[end])
-            right = state.pressure[beside] / np.sqrt(distance)
-            patterns = np.stack([np.ones(3), distance, np.array(RESPONSE)], axis=1)
-            out.append(inwards * float(np.linalg.solve(patterns, right)[2] * distance[0]))
-        return np.array(out)
-
-
-def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
-    """Return the zones with short stick zones between adjoining slip zones of opposite sign."""
-    out = list(zones[:1])
-    for zone in zones[1:]:
-        before = out[-1]
-        slips = STICK not in (before.state, zone.state) and before.state != zone.state
-        if slips and before.stop == zone.start:
-            reach = NEAR_ENOUGH * min(before.stop - before.start, zone.stop - zone.start)
-            start, stop = before.stop - reach, zone.start + reach
-            out[-1] = replace(before, stop=start)
-            out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]
-        else:
-            out.append(zone)
-    return tuple(out)
+        ends = zip(self.ends(x)[[0, -1]].tolist(), (1, -1), strict=True)
+        return np.array([inwards * singular_part(x, state, end, inwards) for end, inwards in ends])

@@ -14,17 +14,15 @@ from scipy.special import ellipj, ellipkm1
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
+Crowding = tuple[tuple[float, float], ...]
+"""How strongly nodes crowd at the start and at the stop of each zone, see `cosine_nodes`."""
 
 FEWEST_ELEMENTS_OF_A_ZONE = 6
 # Least share of all elements that a zone has: the difference between two mesh sizes shows an error
 # only where every zone is refined.
 LEAST_SHARE_OF_A_ZONE = 0.08
-# Correction of the creep from the last node to an edge per shear at that node, as a share of it:
-# what interpolating the square root of the shear at the edge gets wrong there even if the nodal
-# shear is exact. Measured on a half-plane (tests).
-CREEP_TO_EDGE = 0.02655
 _OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
-_PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
+PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
@@ -54,15 +52,25 @@ class Subdivision:
     means : (M-1, N) from the mesh nodes but the first, to mean values between nodes[1:].
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
+    exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
     """
 
     nodes: Array
     elements: tuple[int, ...] = ()
-    crowding: tuple[float, ...] = ()
+    crowding: Crowding = ()
     values: Array | None = None
     acting: Array | None = None
     means: Array | None = None
     edges: tuple[int, ...] = ()
+    exponents: tuple[complex, ...] = ()
+
+    @property
+    def pieces(self) -> int:
+        """Return the number of linear pieces of an element."""
+        if self.values is None:
+            return 1
+        # All intervals have equally many pieces, except those beyond both edges, which have one.
+        return int((self.nodes.size - 3) // (self.values.shape[1] - 3))
 
     def integrated(self, values: Array) -> Array:
         """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
@@ -75,8 +83,7 @@ class Subdivision:
         """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
         if self.values is None:
             return pieces
-        # All intervals have equally many pieces, except that beyond the last break, which has one.
-        parts = (self.nodes.size - 3) // (self.values.shape[1] - 3)
+        parts = self.pieces
         out = pieces[::parts].copy()
         for part in range(1, parts):
             out[:-1] += pieces[part:-1:parts]
@@ -86,9 +93,10 @@ class Subdivision:
 def subdivided(
     nodes: Array,
     elements: Indices,
-    crowding: tuple[float, ...] | None = None,
+    crowding: Crowding | None = None,
     shortest: float = inf,
     edges: Sequence[int] = (),
+    exponents: tuple[complex, ...] = (),
 ) -> Subdivision:
     """Return a mesh with every element cut into equal steps of the node index.
 
@@ -105,18 +113,21 @@ def subdivided(
         longer than the layer is thick cannot represent.
     edges :
         indices in nodes[1:-1] as in `Subdivision`; by default the first and the last.
+    exponents :
+        as in `Subdivision`; by default all 0.
     """
     counts = tuple(elements.tolist())
-    crowding = (1.0,) * len(counts) if crowding is None else crowding
+    crowding = uncrowded(len(counts)) if crowding is None else crowding
     longest = float((nodes[1:] - nodes[:-1]).max())
     most = _MOST_NODE_VALUES // nodes.size**2
-    parts = max(min(ceil(longest / shortest), most), _PIECES_PER_ELEMENT)
+    parts = max(min(ceil(longest / shortest), most), PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
     finer = finer @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
-    return Subdivision(finer, counts, crowding, values, acting, means, edges)
+    exponents = exponents or (0j,) * len(edges)
+    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents)
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:
@@ -163,21 +174,21 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     places = (np.arange(new) + shift) * (old / new) - shift
     first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
     out = np.zeros((new, old + 1))
-    out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = _cubic_weights(places - first)
+    out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = cubic_weights(places - first)
     out.setflags(write=False)
     return out
 
 
 def cubic_error(
-    values: Array, nodes: Array, elements: tuple[int, ...], crowding: tuple[float, ...]
+    values: Array, nodes: Array, elements: tuple[int, ...], crowding: Crowding
 ) -> float:
     """Return the estimated error of cubic interpolation between nodes, integrated over x.
 
     Between the middle two of four points the error is 3/128 of the fourth difference, which takes
     five points. Integrated, an error counts in proportion to the length of its element, so little
     in the short elements beside an edge. In a zone whose nodes crowd, boundary layers matter more
-    than their length says: at the share y of the zone from its nearer end, but not nearer than its
-    crowding r, an error counts 1/sqrt(y) times.
+    than their length says: at the share y of the zone from an end, but not nearer than the crowding
+    r there, an error counts 1/sqrt(y) times.
 
     Parameters
     ----------
@@ -192,18 +203,19 @@ def cubic_error(
     for end in ends[1:-1]:
         fourth[end - 3 : end] = 0.0  # values are not smooth across a break
     counted = np.ones(nodes.size)
-    for (start, stop), ratio in zip(pairwise(ends), crowding, strict=True):
-        if ratio < 1.0:
+    for (start, stop), (first, last) in zip(pairwise(ends), crowding, strict=True):
+        if min(first, last) < 1.0:
             zone = nodes[start : stop + 1]
-            nearer = np.minimum(zone - zone[0], zone[-1] - zone) / (zone[-1] - zone[0])
-            counted[start : stop + 1] = 1.0 / np.sqrt(np.maximum(nearer, ratio))
+            share = (zone - zone[0]) / (zone[-1] - zone[0])
+            nearer = np.minimum(np.maximum(share, first), np.maximum(1.0 - share, last))
+            counted[start : stop + 1] = 1.0 / np.sqrt(nearer)
     lengths = 0.5 * (nodes[3:-1] - nodes[1:-3]) * counted[2:-2]
     return float(3.0 / 128.0 * fourth @ lengths)
 
 
 @lru_cache(maxsize=8)  # meshes of one size that differ only in the places of their breaks share it
 def _cubics(
-    elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
+    elements: tuple[int, ...], crowding: Crowding, pieces: int
 ) -> tuple[Array, Array, Array]:
     """Return the matrices values, acting and means of a `Subdivision`."""
     count = sum(elements)
@@ -225,7 +237,7 @@ def _cubics(
 
 
 @lru_cache(maxsize=128)
-def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array]:
+def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array, Array, Array]:
     """Return the block of one zone of ``n`` elements in the matrices of `_cubics`.
 
     That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
@@ -236,7 +248,7 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
     rows = np.arange(pieces * n)[:, None]
     columns = np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
     values = np.zeros((rows.size + 1, n + 1))
-    values[rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
+    values[rows, columns] = cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
     values[-1, -1] = 1.0
 
     # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
@@ -244,7 +256,7 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
     points, weights = np.polynomial.legendre.leggauss(columns.shape[1])
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
     slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
-    cubics = _cubic_weights((interval - first)[:, None, None] + inside)
+    cubics = cubic_weights((interval - first)[:, None, None] + inside)
     mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
     means = np.zeros((rows.size, n + 1))
     means[rows, columns] = mean.reshape(-1, 4)
@@ -257,14 +269,19 @@ def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array
     return values, acting, means
 
 
-def _cubic_weights(t: Array) -> Array:
+def cubic_weights(t: Array) -> Array:
     """Return the weights of values at 0, 1, 2, 3 in their cubic (Lagrange) at ``t``; (..., 4)."""
     a, b, c = t - 1.0, t - 2.0, t - 3.0
     return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
 
 
-def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
-    """Return the crowding r of nodes in each zone that resolves boundary layers at its ends.
+def uncrowded(zones: int) -> Crowding:
+    """Return the crowding of cosine nodes."""
+    return ((1.0, 1.0),) * zones
+
+
+def crowding_of(breaks: Array, length: float | Array) -> Crowding:
+    """Return the crowding of nodes in each zone that resolves boundary layers at its ends.
 
     See `cosine_nodes`. Each value is a power of two, so that it does not change when ends move a
     little.
@@ -272,20 +289,20 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
     Parameters
     ----------
     breaks : (m,) ends of zones [mm].
-    length : of the boundary layers [mm].
+    length : of the boundary layers, one for all or (m - 1, 2) at the start and stop of zones [mm].
     """
-    wanted = [
-        _CROWDED_LAYER_LENGTHS * length / (stop - start)
-        for start, stop in pairwise(breaks.tolist())
-    ]
-    shares = (min(max(share, _ROUNDING), 1.0) for share in wanted)
-    return tuple(2.0 ** ceil(log2(share)) for share in shares)
+    wanted = _CROWDED_LAYER_LENGTHS * length / np.diff(breaks)[:, None] * np.ones(2)
+    return tuple((_power_of_two(start), _power_of_two(stop)) for start, stop in wanted.tolist())
+
+
+def _power_of_two(share: float) -> float:
+    return float(2.0 ** ceil(log2(min(max(share, _ROUNDING), 1.0))))
 
 
 def elements_of_zones(
     breaks: Array,
     count: int,
-    crowding: tuple[float, ...] | None = None,
+    crowding: Crowding | None = None,
     least_share: float = LEAST_SHARE_OF_A_ZONE,
 ) -> Indices:
     """Return the number of elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
@@ -306,48 +323,50 @@ def elements_of_zones(
 
 
 @lru_cache(maxsize=128)
-def more_elements(ratio: float) -> float:
-    """Return the factor by which crowding ``ratio`` raises the number of elements of a zone."""
-    return sqrt(float(ellipkm1(ratio * ratio)) / (0.5 * pi))
+def more_elements(ratio: tuple[float, float]) -> float:
+    """Return the factor by which crowding raises the number of elements of a zone."""
+    return sqrt(float(ellipkm1(ratio[0] * ratio[1])) / (0.5 * pi))
 
 
-def cosine_nodes(
-    breaks: Array, elements: Indices, crowding: tuple[float, ...] | None = None
-) -> Array:
+def cosine_nodes(breaks: Array, elements: Indices, crowding: Crowding | None = None) -> Array:
     """Return cosine nodes on each zone between ``breaks``, and one node beyond either end.
 
-    In a zone that crowds its nodes by r < 1, the cosine becomes an elliptic function. The share y
-    of the zone's length covered by the share s of its elements is, with modulus k' = r,
+    In a zone whose nodes crowd by a at its start and by b at its stop, the cosine becomes an
+    elliptic function. The share y of the zone's length covered by the share s of its elements is,
+    with modulus k' = sqrt(a b),
 
-        y/(1 - y) = r sc(K s)^2,
+        y/(1 - y) = a sc(K s)^2,
 
-    which for r = 1 is the cosine. At either end y still grows as the square of s, but only up to
-    y = r; beyond, nodes are spaced evenly in its logarithm. So a boundary layer of that length gets
-    its share of the nodes, and square roots at the ends are linear in the node index.
+    which for a = b = 1 is the cosine. At either end y still grows as the square of s, but only up
+    to y = a, or 1 - y = b; beyond, nodes are spaced evenly in its logarithm. So a boundary layer of
+    that length gets its share of the nodes, and square roots at the ends are linear in the node
+    index.
 
     Parameters
     ----------
     breaks : (m,) increasing: edges of the contact and transitions [mm].
     elements : (m - 1,) number of them in each zone.
-    crowding : (m - 1,) r of each zone; None: 1 everywhere.
+    crowding : (m - 1,) a and b of each zone; None: 1 everywhere.
     """
-    crowding = (1.0,) * elements.size if crowding is None else crowding
+    crowding = uncrowded(elements.size) if crowding is None else crowding
     return np.asarray(_cosine_values(tuple(elements.tolist()), crowding) @ breaks)
 
 
-def _places(share: Array, ratio: float) -> tuple[Array, Array]:
+def _places(share: Array, ratio: tuple[float, float]) -> tuple[Array, Array]:
     """Return the place y in a zone of length 1 for the share s of its elements, and dy/ds."""
-    if ratio == 1.0:
+    if ratio == (1.0, 1.0):
         return 0.5 * (1.0 - np.cos(pi * share)), 0.5 * pi * np.sin(pi * share)
-    quarter = float(ellipkm1(ratio * ratio))
-    sn, cn, dn, _ = ellipj(quarter * np.minimum(share, 1.0 - share), 1.0 - ratio * ratio)
-    below = ratio * sn * sn / (cn * cn + ratio * sn * sn)
-    slope = 2.0 * quarter * ratio * sn * cn * dn / (cn * cn + ratio * sn * sn) ** 2
+    start, stop = ratio
+    quarter = float(ellipkm1(start * stop))
+    sn, cn, dn, _ = ellipj(quarter * np.minimum(share, 1.0 - share), 1.0 - start * stop)
+    scale = np.where(share > 0.5, stop, start)
+    below = scale * sn * sn / (cn * cn + scale * sn * sn)
+    slope = 2.0 * quarter * scale * sn * cn * dn / (cn * cn + scale * sn * sn) ** 2
     return np.where(share > 0.5, 1.0 - below, below), slope
 
 
 @lru_cache(maxsize=128)
-def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Array:
+def _cosine_values(elements: tuple[int, ...], crowding: Crowding) -> Array:
     """Return the derivative of `cosine_nodes` with respect to the place of each break."""
     values = np.zeros((sum(elements) + 3, len(elements) + 1))
     first = 1

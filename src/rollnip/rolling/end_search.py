@@ -85,7 +85,9 @@ class ZoneSolver:
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )
-        proposed = layout.with_proposed_ends(mesh.inner, latest.state, self.nip.friction)
+        proposed = layout.with_proposed_ends(
+            mesh.inner, latest.state, self.nip.friction, mesh.fine.exponents
+        )
         # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
         if not self._has_skin:
             shortest = shortest_zone(self.nip, self.model, layout.width)
@@ -168,7 +170,7 @@ class EndSearch:
     @classmethod
     def of(cls, solver: ZoneSolver, start: SearchState, count: int) -> EndSearch:
         """Begin a search with the zones of ``start``."""
-        ends = Secants(start.misplacement * start.layout.width)
+        ends = Secants(start.misplacement * start.layout.width, start.jacobian)
         state = solver.renewed(start)
         return cls(solver, count, state, start.misplacement, ends, start.end_sensitivity)
 
@@ -246,7 +248,12 @@ class EndSearch:
         """Return the state of the search with the ends placed."""
         placed = state_at(step.next_layout, step.latest, self.state, step.misplacement)
         sensitivity = self.end_sensitivity if self.shows_sensitivity else None
-        return replace(placed, end_error=step.end_error, end_sensitivity=sensitivity)
+        return replace(
+            placed,
+            end_error=step.end_error,
+            end_sensitivity=sensitivity,
+            jacobian=self.ends.jacobian,
+        )
 
 
 def _sensitivity_to_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:

@@ -13,7 +13,8 @@ from rollnip.materials import memory_integral, relaxation_modulus
 from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
+from rollnip.rolling.changes import errors_from_changes, shown_order
+from rollnip.rolling.lengths import creepage_by_slip
 from rollnip.rolling.mesh_solution import (
     LEAST_SIZE,
     Figures,
@@ -24,12 +25,8 @@ from rollnip.rolling.mesh_solution import (
 from rollnip.rolling.secondary import secondary_errors, secondary_figures, secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
-# Order assumed for the errors while there are only two sizes.
-_ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
 # Least relative error of each of Figures, times the square of the number of elements: measured on
-# random nips against ten times as many elements. Errors are of higher order where tractions vanish
-# as a square root at every end. Where unlike surfaces stick up to an edge they do not: the edge is
-# misplaced by a share of the first element, and the order is 2.
+# random nips against ten times as many elements.
 LEAST_ERROR = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 _CREEPAGE, _WIDTH, _PEAK = (
     [one.name for one in fields(Figures)].index(name)
@@ -80,9 +77,10 @@ def with_errors(
     """Return the solution with the estimated errors of the figures held to the tolerance.
 
     An error is the sum of the discretisation error, what the remaining misplacement of ends may
-    change (``end_error``), and the effect of relaxation within an edge element. The changes between
-    mesh sizes do not show the last two: meshes agree on wrong figures if their ends are equally
-    misplaced, or if the elements of all are too long.
+    change (``end_error``), the effect of relaxation within an edge element, and that of slip zones
+    left out. The changes between mesh sizes do not show the last three: meshes agree on wrong
+    figures if their ends are equally misplaced, if the elements of all are too long, or if all lack
+    the same slip.
     """
     figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
     # Edges are misplaced by that much. The creepage at a given traction varies as the square of the
@@ -90,6 +88,7 @@ def with_errors(
     creepage = 0.0
     if not isinstance(nip.tangential, Creepage):
         creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
+        creepage += sum(creepage_by_slip(nip, figures, one) for one in latest.slip_left_out)
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(nip, latest, history).array() + unseen
     if end_error is not None:
@@ -163,11 +162,10 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     counts = np.array([level.count for level in history], dtype=float)
     values = np.array([level.figures.array() for level in history])
     values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes miss the peaks under a stiff skin
-    # Two sizes show no order. The creepage is taken as first order, as it depends most on edges up
-    # to which unlike surfaces stick.
-    order = (
-        _ORDER_FROM_TWO_SIZES if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
-    )
+    # Two sizes show no order: they are taken as of the second.
+    order = np.full(5, 2.0)
+    if len(history) > 2:
+        order = shown_order(counts, np.diff(values, axis=0))
     change = errors_from_changes(counts, values, order)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
@@ -177,21 +175,12 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 
 
-def zone_error_ratio(history: list[RefinementLevel], tolerance: float) -> float:
-    """Return the largest estimated error of a zone's length, over the allowed error.
-
-    Allowed is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width
-    if that is more.
-    """
-    if len(history) < 2:
-        return 0.0
-    coarse, fine = history[-2:]
-    share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))
-    return float(share) * length_change_ratio(coarse.breaks, fine.breaks, tolerance)
-
-
 def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
-    """Return the largest change of a zone's length, over what `zone_error_ratio` allows."""
+    """Return the largest change of a zone's length, over what is small.
+
+    Small is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width if
+    that is more.
+    """
     lengths = np.diff(after)
     allowed = 3.0 * tolerance * np.maximum(lengths, LEAST_SIZE * lengths.sum())
     return float(np.max(np.abs(lengths - np.diff(before)) / allowed))

@@ -22,7 +22,6 @@ from rollnip.rolling.estimates import (
     refinement_level,
     with_errors,
     with_secondary_errors,
-    zone_error_ratio,
 )
 from rollnip.rolling.iterations import converge, with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
@@ -37,8 +36,7 @@ _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
 _MOST_TIMES_FIRST = 3.0
 _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
 _LEAST_GROWTH = 1.2  # of the number of elements from size to size
-# Number of elements above which ends may still move between sizes: transitions that do so have no
-# square root at them.
+# Number of elements above which zones found node by node count as known.
 ENOUGH_FOR_ZONES = 100
 
 
@@ -116,10 +114,7 @@ def _refined(
         history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.end_error)
         ratio = error_ratio(nip, latest, model.tolerance)
-        zones_converged = (
-            count > ENOUGH_FOR_ZONES or zone_error_ratio(history, model.tolerance) <= 1.0
-        )
-        if largest(ratio, roughness) <= 1.0 and zones_converged:
+        if largest(ratio, roughness) <= 1.0:
             final = converge(nip, model, latest, placing.solver.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:

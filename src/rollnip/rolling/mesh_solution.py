@@ -11,7 +11,13 @@ from typing import Literal
 import numpy as np
 
 from rollnip._largest import largest
-from rollnip.contact import ContactProblem, ContactState, ContactZone
+from rollnip.contact import (
+    ContactProblem,
+    ContactState,
+    ContactZone,
+    TurningSlip,
+    slip_by_turning,
+)
 from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
@@ -146,6 +152,17 @@ class MeshSolution:
     def secondary_error(self) -> SecondaryFigures | None:
         """Estimated discretisation error of the secondary figures; None where unknown."""
         return None if self.make_secondary_error is None else self.make_secondary_error()
+
+    @cached_property
+    def slip_left_out(self) -> tuple[TurningSlip, ...]:
+        """The slip zones by turning tractions that are left out at its edges."""
+        fine, x, friction = self.mesh.fine, self.mesh.inner, self.problem.friction
+        edges = zip(fine.edges, fine.exponents, strict=True)
+        found = (
+            slip_by_turning(x, self.state, friction, edge, kappa, leads=bool(number % 2))
+            for number, (edge, kappa) in enumerate(edges)
+        )
+        return tuple(slip for slip in found if slip is not None)
 
     @property
     def is_placed(self) -> bool:

@@ -61,11 +61,13 @@ class Placing:
 
         Returns
         -------
-        None where no such solution is found.
+        None where no such solution is found. A short slip zone at an edge that cannot be placed is
+        left out: its effect counts in the estimated errors.
         """
         # The second order held so far is from a coarser mesh: each size evaluates its own.
         search = EndSearch.of(self.solver, replace(start, expected=inf), count)
         most_meshes = self._most_meshes(start.layout)
+        without_slip: SearchState | None = None
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
             step = search.solve_mesh()
             # The figures show errors of ends only with the zones of the previous size.
@@ -81,14 +83,16 @@ class Placing:
             )
             other = search.untried(others)
             if other is not None:
+                if other.may_be_left_out:
+                    without_slip = search.result(step)
                 search.change_zones(other, was_placed=is_placed)
             elif not is_placed:
                 search.move_ends(step)
             elif self.search.has_tension(step.latest):
-                return None
+                break
             else:
                 return search.result(step)
-        return None
+        return without_slip
 
     def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
         """Return the solution with the ends moved to where the last solution put them.
@@ -166,7 +170,10 @@ class Placing:
         length = layout.width
         if zones_known and self.nip.friction == 0.0:
             length = min(length, self.solver.meshes.boundary)
-        return proposed.distance(layout) * layout.width <= most * length
+        shortest = float(np.diff(layout.breaks).min())
+        return proposed.distance(layout) * layout.width <= min(
+            most * length, NEAR_ENOUGH * shortest
+        )
 
     def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.
@@ -195,8 +202,9 @@ class Placing:
     def _most_meshes(self, layout: Layout) -> int:
         crowding = self.solver.meshes.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
-        most += round(-log10(min(crowding)))  # crowding can increase tenfold from mesh to mesh
-        if (len(crowding) == 1 and crowding[0] < 1.0) or layout.reversals:
+        strongest = min(map(min, crowding))
+        most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh
+        if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
             most += _MOST_HALVINGS
         return most
 

@@ -17,6 +17,7 @@ from rollnip.contact import (
     contact_intervals,
     next_slip,
     next_states,
+    slipping_at_edges,
 )
 from rollnip.contact.features import runs
 from rollnip.contact.secants import Secants
@@ -24,9 +25,9 @@ from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.mesh_solution import Figures, MeshSolution
-from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.lengths import creepage_by_slip, shortest_zone
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
+from rollnip.rolling.surfaces import Array, PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 
@@ -46,6 +47,8 @@ class SearchState:
     end_error : change of each figure that this misplacement may cause; None: not known.
     end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
         known.
+    jacobian : of the moves that ends propose, see `Secants`; None: not known.
+    may_be_left_out : whether the zones only add slip at edges to others that are placed.
     """
 
     layout: Layout
@@ -55,6 +58,8 @@ class SearchState:
     misplacement: float = NEAR_ENOUGH
     end_error: Figures | None = None
     end_sensitivity: Figures | None = None
+    jacobian: Array | None = None
+    may_be_left_out: bool = False
 
     @property
     def is_quiet(self) -> bool:
@@ -109,7 +114,7 @@ class ZoneSearch:
             return
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
-            yield SearchState(slipping, latest)
+            yield SearchState(slipping, latest, may_be_left_out=True)
         if self.has_tension(latest):
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
@@ -170,7 +175,7 @@ class ZoneSearch:
         if layout is None:
             return None
         layout = layout.without_short_zones(
-            self._shortest(layout), keeps_stick=_keeps_stick(latest)
+            self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
         )
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
@@ -183,9 +188,18 @@ class ZoneSearch:
         """
         if self.nip.friction == 0.0:
             return None
-        least = self._shortest(layout)
-        x, state = latest.mesh.inner, latest.state
-        slipping = layout.slipping_at_edges(x, state, self.nip.friction, least)
+        figures = latest.figures
+        # A quarter of what the creepage may be in error is left to the estimated errors.
+        least = 0.25 * self.model.tolerance * creepage_scale(self.nip, figures)
+        slipping = slipping_at_edges(
+            layout,
+            latest.mesh.inner,
+            latest.state,
+            self.nip.friction,
+            self._shortest(layout),
+            latest.mesh.fine.exponents,
+            matters=lambda slip: creepage_by_slip(self.nip, figures, slip) > least,
+        )
         return None if slipping.is_like(layout) else slipping
 
     def _shortest(self, layout: Layout) -> float:

@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import CREEP_TO_EDGE, ContactState, Subdivision
+from rollnip.contact import ContactState, Subdivision
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -27,6 +27,11 @@ from rollnip.model import Geometry
 from rollnip.nip import Nip, Torque
 from rollnip.rollers import Roller
 from rollnip.rolling.displacements import Displacements, Field, SecondFields
+from rollnip.rolling.influence_matrix import (
+    influence_matrix,
+    shorter_per_traction,
+    unit_tractions,
+)
 
 Array = NDArray[np.float64]
 
@@ -172,25 +177,27 @@ class Mesh:
     @classmethod
     def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision) -> Self:
         """Return the mesh with the influence functions of both surfaces evaluated on it."""
-        unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
-        weights = load_weights(fine.nodes)
-        places = nodes[1:], fine.nodes
+        unit = unit_tractions(fine)
+        places, n = (nodes[1:], fine.nodes), nodes.size - 2
         per_traction, influence = np.empty((0, 0, 0)), np.empty((0, 0))
         if cls.is_bare and kernels.joint is not None:
             made = surface_displacements(kernels.joint, *places, unit)
-            influence = _influence(fine, made, None)
+            influence = influence_matrix(fine, made, None)
         else:
             per_traction = pair_displacements(kernels, *places, unit)
             if cls.is_bare:
                 xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
                 made = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
-                influence = _influence(fine, made, _shorter(per_traction, kernels.hoops))
+                per_traction = np.ascontiguousarray(per_traction[:, :, :n])
+                shorter = shorter_per_traction(per_traction, kernels.hoops)
+                influence = influence_matrix(fine, made, shorter)
+        weights = load_weights(fine.nodes)
         return cls(
             nodes=nodes,
             fine=fine,
             inner=nodes[1:-1],
             dx=nodes[2:] - nodes[1:-1],
-            weights=weights if unit is None else weights @ unit,
+            weights=weights if unit is None else weights @ unit[:, :n],
             per_traction=per_traction,
             influence=influence,
             kernels=kernels,
@@ -353,40 +360,3 @@ def surface_displacements(kernel: Kernel, x: Array, nodes: Array, tractions: Arr
     if tractions is None:
         return displacement_matrix(kernel, x, nodes)
     return displacement_under(kernel, x, nodes, tractions)
-
-
-def _influence(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
-    """Return `ContactProblem.influence`: gap and creep per nodal traction (theory section 5).
-
-    The creep of an interval is int (du_x/dx - u_z/R) dx of the upper minus that of the lower
-    surface. The pressure is the same on both surfaces, the shear opposite. Without friction, creep
-    and shear play no part, and their blocks are zero.
-
-    Parameters
-    ----------
-    made : (1 or 3, N, N-1) of `PairKernels.joint` per traction.
-    shorter : (N, 2 (N-1)) see `_shorter`; None: 0.
-    """
-    n = made.shape[2]
-    out = np.zeros((2 * n, 2 * n))
-    out[:n, :n] = made[0, :-1]
-    if len(made) == 1:
-        return out
-    _, xz, xx = made
-    np.negative(xz[:-1], out=out[:n, n:])
-    np.subtract(xz[1:], xz[:-1], out=out[n:, :n])
-    np.subtract(xx[1:], xx[:-1], out=out[n:, n:])
-    if shorter is not None:
-        out[n:] -= fine.integrated(shorter)
-    for leading in fine.edges[1::2]:  # surfaces may stick up to a leading edge
-        out[n + leading - 1, n + leading - 1] *= 1.0 - CREEP_TO_EDGE
-    return out
-
-
-def _shorter(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
-    """Return u_z/R of the upper minus the lower surface, per pressure and per shear; None: 0."""
-    if not any(hoops):
-        return None
-    _, zz_u, xz_u, _, zz_l, xz_l = per_traction
-    by_pressure = hoops[0] * zz_u - hoops[1] * zz_l
-    return np.concatenate([by_pressure, -hoops[0] * xz_u - hoops[1] * xz_l], axis=1)

@@ -8,17 +8,25 @@ from math import inf
 
 import numpy as np
 
-from rollnip.contact import Layout, cosine_nodes, crowding_of, elements_of_zones, subdivided
+from rollnip.contact import (
+    Crowding,
+    Layout,
+    cosine_nodes,
+    crowding_of,
+    elements_of_zones,
+    subdivided,
+    uncrowded,
+)
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
 from rollnip.contact.problem import Indices
 from rollnip.nip import Nip
-from rollnip.rolling.lengths import boundary_layer
+from rollnip.rolling.lengths import boundary_layer, dundurs
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
 
-Shape = tuple[Indices, tuple[float, ...]]
+Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
 
 
@@ -32,6 +40,14 @@ class ZoneMeshes:
     def boundary(self) -> float:
         """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
         return boundary_layer(self.nip)
+
+    @cached_property
+    def _beta(self) -> float:
+        return dundurs(self.nip)
+
+    def exponents(self, layout: Layout) -> tuple[complex, ...]:
+        """Return the exponents of the tractions at the edges of a solution, see `contact`."""
+        return layout.edge_exponents(self._beta, self.nip.friction)
 
     @cached_property
     def longest_piece(self) -> float:
@@ -48,12 +64,15 @@ class ZoneMeshes:
         ]
         return min(coverings, default=inf) / _PIECES_PER_THICKNESS
 
-    def crowding(self, layout: Layout, coarsest: float = 0.0) -> tuple[float, ...]:
+    def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
         """Return the crowding that resolves the boundary layers of each zone.
 
+        In stick, tractions change, too, over the length of slip between it and a leading edge.
         ``coarsest``: length below which nothing need be resolved [mm].
         """
-        return crowding_of(layout.breaks, max(self.boundary, coarsest))
+        shortest = np.full((layout.states.size, 2), self.boundary)
+        shortest[:, 1] = np.minimum(self.boundary, layout.slip_beyond_stick)
+        return crowding_of(layout.breaks, np.maximum(shortest, coarsest))
 
     def resolves(self, layout: Layout, shape: Shape) -> bool:
         """Return whether meshes of a shape resolve the boundary layers of each zone."""
@@ -63,19 +82,21 @@ class ZoneMeshes:
         """Return the mesh with nodes at the ends of the zones of a solution."""
         nodes = cosine_nodes(layout.breaks, *shape)
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-        return mesh_on(nodes, kernels, subdivided(nodes, *shape, self.longest_piece, edges))
+        exponents = self.exponents(layout)
+        fine = subdivided(nodes, *shape, self.longest_piece, edges, exponents)
+        return mesh_on(nodes, kernels, fine)
 
     def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on roughly known zones, to seek states node by node."""
-        shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
+        shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
         nodes = cosine_nodes(zones.breaks, *shape)
         fine = subdivided(nodes, *shape, self.longest_piece)
         return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
 
-def crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
+def crowds_more(one: Crowding, other: Crowding) -> bool:
     """Return whether nodes crowd more in any zone of ``one``, or the number of zones differs."""
-    return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
+    return len(one) != len(other) or bool(np.any(np.array(one) < np.array(other)))
 
 
 def are_too_many(zones: int) -> bool:

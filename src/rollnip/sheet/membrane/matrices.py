@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from rollnip.contact import CREEP_TO_EDGE
+from rollnip.contact import left_out_of_creep
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheets import Sheet
@@ -158,7 +158,7 @@ def influence_matrix(mesh: Mesh, sheet: Sheet, integrals: Integrals) -> Array:
     _add_bands(upper[:, 2], lower[:, 1], sheared / 6.0)
     last = n - 2  # in case the surfaces stick up to a leading edge at the last node
     for side in (1, 2):
-        out[side, last, side, last] *= 1.0 - CREEP_TO_EDGE
+        out[side, last, side, last] *= 1.0 - left_out_of_creep(0j).real
     return out.reshape(3 * n, 3 * n)
 
 

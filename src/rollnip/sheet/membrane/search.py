@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import (
+    Crowding,
     Layout,
     State,
     States,
@@ -23,6 +24,7 @@ from rollnip.contact import (
     crowding_of,
     elements_of_zones,
     subdivided,
+    uncrowded,
 )
 from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import FINITE, Geometry, Model
@@ -93,7 +95,7 @@ class MembraneSearch:
 
         ``half_width``: approximate half-width of the nip [mm]; ``count``: number of elements.
         """
-        reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
+        reach, shape = _REACH * half_width, (np.array([count]), uncrowded(1))
         for _ in range(_MOST_REACHES):
             problem = self._problem(MembraneZones.sticking(reach), shape, None)
             lagged = initial_terms(problem)
@@ -121,7 +123,7 @@ class MembraneSearch:
         # On the first mesh ends count as near, because its lagged terms come from a solution.
         near = min(misplacement, _NEARLY_PLACED)
         elements: NDArray[np.intp] | None = None
-        crowding: tuple[float, ...] = ()
+        crowding: Crowding = ()
         iterate = before
         self.secants.begin_size()
         for _ in range(_MOST_MESHES):
@@ -170,7 +172,7 @@ class MembraneSearch:
         proper = zones if zones.is_proper else iterate.zones
         return replace(iterate, zones=proper, settled=False, misplacement=misplacement)
 
-    def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
+    def _crowding(self, breaks: Array, known: float) -> Crowding:
         """Return the crowding of nodes at zone ends, ``known`` to this fraction of the width."""
         width, rollers = float(breaks[-1] - breaks[0]), (self.nip.upper, self.nip.lower)
         shortest = min(self.boundary, mismatch_layer(rollers, self.model.tolerance) * width)
@@ -184,7 +186,7 @@ class MembraneSearch:
     def _problem(
         self,
         zones: MembraneZones,
-        shape: tuple[NDArray[np.intp], tuple[float, ...]],
+        shape: tuple[NDArray[np.intp], Crowding],
         before: MembraneIterate | None,
     ) -> MembraneProblem:
         """Assemble the problem on a mesh with nodes at the zone ends."""

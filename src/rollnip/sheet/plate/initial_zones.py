@@ -113,9 +113,8 @@ class InitialZones:
         meshes = []
         for number in (0, 1):
             breaks, elements = _breaks(zones, number, margin, count)
-            even = (1.0,) * elements.size
-            nodes = cosine_nodes(breaks, elements, even)
-            fine = subdivided(nodes, elements, even)
+            nodes = cosine_nodes(breaks, elements)
+            fine = subdivided(nodes, elements)
             meshes.append(interface_mesh(nodes, fine, kernels, number))
         return PlateProblem.on(self.nip, (meshes[0], meshes[1]))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import CREEP_TO_EDGE
+from rollnip.contact import left_out_of_creep
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.interface import SIGNS, stretch_by
 from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
@@ -56,7 +56,7 @@ def influence_matrices(
             block[:] = made[:, rows[at]].reshape(block.shape)
             if at == by:
                 block += by_rollers[at]
-                block[-2, -2] *= 1.0 - CREEP_TO_EDGE
+                block[-2, -2] *= 1.0 - left_out_of_creep(0j).real
     return matrix, turned
 
 

@@ -16,7 +16,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import cosine_nodes, crowding_of, elements_of_zones, subdivided
+from rollnip.contact import Crowding, cosine_nodes, crowding_of, elements_of_zones, subdivided
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
@@ -65,7 +65,7 @@ _MOST_ITERATIONS = 25
 _STILL = 0.1, 1e-4
 
 
-_Shapes = dict[tuple[int, tuple[float, ...]], NDArray[np.intp]]
+_Shapes = dict[tuple[int, Crowding], NDArray[np.intp]]
 """Number of elements in each zone, by interface and by the crowding of nodes in the zones."""
 
 

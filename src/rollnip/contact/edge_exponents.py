@@ -1,0 +1,146 @@
+"""How the tractions of unlike surfaces vanish at an edge, and what the elements there leave out.
+
+Over short distances s from an edge, both surfaces respond as half-planes. If they are alike, the
+tractions vanish as the square root of s. If they are unlike, pressure and shear drive one another:
+
+    p + i q = A s^(1/2 + kappa), A complex,
+
+with Dundurs' second parameter beta = (B_u - B_l)/(A_u + A_l) of both half-planes, C_xx = A/w,
+C_xz = i B/w. At a leading edge
+
+    kappa = -i artanh(beta)/pi                 where the surfaces stick (Williams 1959),
+    kappa = arctan(mu beta)/pi sign(q)         where they slip (Dundurs & Lee 1972),
+
+and at a trailing edge the opposite. So where they stick, the direction of the traction turns with
+ln s as the edge is approached. On cosine nodes s grows as the square of the node index t, and
+cubics in t hold t, the square root, but not t^(1 + 2 kappa).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import atan, atanh, pi, tanh
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_weights
+from rollnip.contact.problem import State
+
+ComplexArray = NDArray[np.complex128]
+
+_ELEMENTS = cubic_weights(np.zeros(1)).size  # beside an edge: as many as a cubic has nodes
+
+
+def exponent_at_leading_edge(state: int, beta: float, friction: float) -> complex:
+    """Return kappa at the leading edge of a zone; at a trailing edge it is the opposite.
+
+    Parameters
+    ----------
+    state : State of the zone.
+    beta : Dundurs' second parameter, between -1/2 and 1/2.
+    friction : Coulomb coefficient.
+    """
+    if friction == 0.0:
+        return 0j
+    if state == State.STICK:
+        return -1j * atanh(beta) / pi
+    sign = {State.SLIP_PLUS: 1.0, State.SLIP_MINUS: -1.0}[State(state)]
+    return complex(sign * atan(friction * beta) / pi)
+
+
+def turned_back(
+    tractions: Sequence[complex], distance: Sequence[float], kappa: complex
+) -> Sequence[complex]:
+    """Return p + i q at distances s_1, s_2, ... from an edge without the factor (s/s_1)^kappa.
+
+    What is left vanishes at the edge as a square root.
+    """
+    if not kappa:
+        return tractions
+    return [t * (s / distance[0]) ** -kappa for t, s in zip(tractions, distance, strict=True)]
+
+
+@lru_cache(maxsize=128)
+def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
+    """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
+
+    That is the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
+    `Subdivision`), adjusted to have the means of that difference over the pieces.
+
+    Parameters
+    ----------
+    pieces : linear pieces of an element.
+
+    Returns
+    -------
+    (4 pieces + 1,) at the finer nodes from the edge inwards.
+    """
+    t = np.arange(_ELEMENTS * pieces + 1) / pieces
+    nodes = _root(np.arange(_ELEMENTS + 2.0), kappa)
+    values = _root(t, kappa) - _cubics(nodes, t)
+    out = _with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
+    out.setflags(write=False)
+    return out
+
+
+@lru_cache(maxsize=128)
+def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> complex:
+    """Return rho, for the creep that linear pieces make in the edge element although all stick.
+
+    At a leading edge up to which the surfaces stick that creep is Im[(p + i q) rho] times what a
+    unit shear at the last node makes there, with p + i q at that node. It is the integral of the
+    difference between the acting and the exact tractions, with the influence functions of
+    half-planes: -ln|x| of either traction in its own direction, and beta pi/2 sign(x) across.
+    """
+    count = 4 * _ELEMENTS  # the further from the edge, the less a piece matters
+    t = np.arange(count * pieces + 1) / pieces
+    unit = np.eye(count + 2, dtype=complex)[1]
+    acting = _with_means(_root(t, kappa), _means_of_root(t, kappa))
+    by_unit = _with_means(_cubics(unit, t), _means_of_cubics(unit, t))
+    # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
+    points, weights = np.polynomial.legendre.leggauss(16)
+    x = 0.5 * (1.0 + points)
+    lengths = np.diff(t)[:, None]
+    inside = t[:-1, None] + lengths * (x * x * (3.0 - 2.0 * x))
+    s, ds = inside**2, 2.0 * inside * lengths * (3.0 * weights * x * (1.0 - x))
+    left = (np.interp(s, t * t, acting) - _root(inside, kappa)) * ds
+    kernel = np.log(np.abs(1.0 - s)) - np.log(s)
+    along = (left * kernel).sum()
+    across = tanh(pi * kappa.imag) * pi * left[:pieces].sum()
+    return complex((along + 1j * across) / (np.interp(s, t * t, by_unit) * ds * kernel).sum())
+
+
+def _root(t: Array, kappa: complex) -> ComplexArray:
+    """Return t^(1 + 2 kappa), 0 at t = 0."""
+    out = np.zeros(t.shape, dtype=complex)
+    np.power(t, 1.0 + 2.0 * kappa, out=out, where=t > 0.0)
+    return out
+
+
+def _means_of_root(t: Array, kappa: complex) -> ComplexArray:
+    """Return the means of t^(1 + 2 kappa) over x between ``t``, x growing as t^2."""
+    return np.asarray(np.diff(t * t * _root(t, kappa)) / ((1.5 + kappa) * np.diff(t * t)))
+
+
+def _cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
+    """Return at ``t`` the cubics through values at nodes 0, 1, ..."""
+    first = np.clip(np.floor(t).astype(int) - 1, 0, nodes.size - 4)
+    return np.asarray((cubic_weights(t - first) * nodes[first[..., None] + np.arange(4)]).sum(-1))
+
+
+def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
+    """Return the means of `_cubics` over x between ``t``, x growing as t^2."""
+    points, weights = np.polynomial.legendre.leggauss(4)
+    inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
+    weights = weights * inside  # dx is 2 t dt
+    return np.asarray((weights * _cubics(nodes, inside)).sum(1) / weights.sum(1))
+
+
+def _with_means(values: ComplexArray, means: ComplexArray) -> ComplexArray:
+    """Return ``values`` at finer nodes, adjusted to have given means in between (`Subdivision`)."""
+    lacking = means - 0.5 * (values[:-1] + values[1:])
+    out = values.copy()
+    out[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])
+    return out

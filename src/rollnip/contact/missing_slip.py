@@ -1,0 +1,131 @@
+"""The slip zones that a solution leaves out at edges up to which its surfaces stick."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import copysign, exp, inf, pi, sqrt
+
+import numpy as np
+
+from rollnip.contact.edge_exponents import turned_back
+from rollnip.contact.ends import RESPONSE, determinant, outward_move
+from rollnip.contact.free_ends import Layout
+from rollnip.contact.problem import STICK, Array, ContactState, State
+
+
+def slipping_at_edges(
+    layout: Layout,
+    x: Array,
+    state: ContactState,
+    friction: float,
+    least: float,
+    exponents: tuple[complex, ...] = (),
+    matters: Callable[[TurningSlip], bool] = lambda _: False,
+) -> Layout:
+    """Return the layout with slip zones added at edges where stick leaves out some slip.
+
+    Parameters
+    ----------
+    least : length of the shortest slip zone to add that `slip_beside` finds [mm].
+    matters : tells which of those that `slip_by_turning` finds to add.
+    x, state, friction, exponents : as in `with_proposed_ends`.
+    """
+    ends, breaks, states = layout.ends(x), layout.breaks.tolist(), layout.states.tolist()
+    edges = np.flatnonzero(layout.is_edge).tolist()
+    kappas = exponents or (0j,) * len(edges)
+    for edge, kappa in zip(edges[::-1], kappas[::-1], strict=True):
+        leads = layout.leads(edge)
+        if layout.states[edge - leads] != STICK:
+            continue
+        beside = x, state, friction, int(ends[edge]), kappa
+        length, slip = slip_beside(*beside, leads=leads)
+        turning = slip_by_turning(*beside, leads=leads)
+        if turning is not None and matters(turning):
+            length, slip = turning.length, turning.state
+        elif length <= least:
+            continue
+        place = breaks[edge]
+        breaks.insert(edge + (not leads), place - length if leads else place + length)
+        states.insert(edge, slip)
+    found = Layout(np.array(breaks), np.array(states, dtype=np.int8))
+    return found if found.is_proper else layout
+
+
+def slip_beside(
+    x: Array, state: ContactState, friction: float, edge: int, kappa: complex, *, leads: bool
+) -> tuple[float, State]:
+    """Return the length of a slip zone missing between stick and an edge, and its state.
+
+    Leaving out a slip zone much shorter than the elements changes mu p - |q| as misplacing the end
+    of stick outwards by its length does. Other effects that three nodes mistake for it depend on
+    the spacing of the nodes. So the length is accepted only if it agrees, to within itself, with
+    the length from nodes twice as far apart; otherwise it is 0.
+
+    Parameters
+    ----------
+    edge : index in ``x`` of the node at the edge.
+    kappa : of the edge, see `edge_exponents`.
+    leads : whether it is the leading edge of its piece of the contact.
+    """
+    inwards = -1 if leads else 1
+    for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
+        lengths = []
+        for apart in (1, 2):
+            beside = edge + inwards * apart * np.array([1, 2, 3])
+            distance = np.abs(x[beside] - x[edge]).tolist()
+            tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
+            back = turned_back(tractions, distance, kappa)
+            values = [friction * one.real - sign * one.imag for one in back]
+            lengths.append(-outward_move(distance, values, smooth=leads))
+        near, far = lengths
+        if abs(far - near) < near < inf:
+            return near, slip
+    return 0.0, State.STICK
+
+
+@dataclass(frozen=True, slots=True)
+class TurningSlip:
+    """A slip zone between stick of unlike surfaces and an edge that a solution leaves out.
+
+    Attributes
+    ----------
+    length : of it [mm].
+    state : of it.
+    amplitude : |p + i q| beside the edge over the root of the distance [MPa/sqrt(mm)].
+    """
+
+    length: float
+    state: State
+    amplitude: float
+
+
+def slip_by_turning(
+    x: Array, state: ContactState, friction: float, edge: int, kappa: complex, *, leads: bool
+) -> TurningSlip | None:
+    """Return the slip zone that turning tractions call for; None where surfaces are alike, or slip.
+
+    Towards an edge up to which they stick, the traction of unlike surfaces turns with ln s
+    (`edge_exponents`) until it exceeds the bound. Once slip is allowed there, the zone is half as
+    long as that: on four nips 0.52 to 0.62 of it.
+
+    Parameters are those of `slip_beside`.
+    """
+    if not kappa.imag:
+        return None
+    beside = edge + (-1 if leads else 1) * np.array([1, 2, 3])
+    distance = np.abs(x[beside] - x[edge]).tolist()
+    tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
+    back = turned_back(tractions, distance, kappa)
+    right = [value / sqrt(d) for value, d in zip(back, distance, strict=True)]
+    root = determinant(right, distance, RESPONSE) / determinant((1.0,) * 3, distance, RESPONSE)
+    # mu p - sign q is the real part of (mu + i sign)(p + i q): it is 0 where that has turned to i.
+    side = copysign(1.0, kappa.imag)
+    turn, slip = min(
+        (0.5 * pi + side * phase((friction + 1j * sign) * root), slip)
+        for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0))
+    )
+    reach = distance[0] * exp(-turn / abs(kappa.imag))
+    # What slips further inside is not left to be told: it exceeds the bound at nodes.
+    return TurningSlip(0.5 * reach, slip, abs(root)) if reach < distance[-1] else None

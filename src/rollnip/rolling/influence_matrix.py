@@ -1,0 +1,108 @@
+"""The influence matrix of a contact problem, from the displacements of both surfaces."""
+
+from __future__ import annotations
+
+from itertools import compress
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import Subdivision, left_out_of_creep, left_out_of_tractions
+
+Array = NDArray[np.float64]
+
+
+def unit_tractions(fine: Subdivision) -> Array | None:
+    """Return what acts at the finer nodes[1:-1] per traction at nodes[1:-1] of the mesh.
+
+    Behind the columns of nodal tractions stand those that they leave out beside the edges of unlike
+    surfaces, the real parts and then the imaginary parts of `left_out_of_tractions`. None where
+    nothing is subdivided: each traction acts at its node.
+    """
+    if fine.acting is None:
+        return None
+    unit = fine.acting[1:-1, 1:-1]
+    if not any(fine.exponents):
+        return unit
+    left_out = np.zeros((unit.shape[0], sum(map(bool, fine.exponents))), dtype=complex)
+    for column, (edge, kappa, inwards) in zip(left_out.T, _unlike_edges(fine), strict=True):
+        beside = left_out_of_tractions(kappa, fine.pieces)
+        column[fine.pieces * edge + inwards * np.arange(beside.size)] = beside
+    return np.concatenate([unit, left_out.real, left_out.imag], axis=1)
+
+
+def influence_matrix(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
+    """Return `ContactProblem.influence`: gap and creep per nodal traction (theory section 5).
+
+    The creep of an interval is int (du_x/dx - u_z/R) dx of the upper minus that of the lower
+    surface. The pressure is the same on both surfaces, the shear opposite. Without friction, creep
+    and shear play no part, and their blocks are zero.
+
+    Parameters
+    ----------
+    made : (1 or 3, N, columns) displacements zz, xz, xx of both surfaces together at nodes[1:] per
+        `unit_tractions`.
+    shorter : (N, 2 (N-1)) see `shorter_per_traction`; None: 0.
+    """
+    n = made.shape[1] - 1
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, :n] = made[0, :-1, :n]
+    if len(made) == 1:
+        return out
+    _, xz, xx = made[:, :, :n]
+    np.negative(xz[:-1], out=out[:n, n:])
+    np.subtract(xz[1:], xz[:-1], out=out[n:, :n])
+    np.subtract(xx[1:], xx[:-1], out=out[n:, n:])
+    if shorter is not None:
+        out[n:] -= fine.integrated(shorter)
+    _correct_creep_to_edges(fine, out)
+    _add_left_out(fine, made, out)
+    return out
+
+
+def _correct_creep_to_edges(fine: Subdivision, out: Array) -> None:
+    """Take from the creep in the elements at leading edges what `left_out_of_creep` says."""
+    n = len(out) // 2
+    for edge, kappa in zip(fine.edges[1::2], fine.exponents[1::2], strict=True):
+        node = edge - 1
+        rho = left_out_of_creep(kappa, fine.pieces) * out[n + node, n + node]
+        out[n + node, [node, n + node]] -= rho.imag, rho.real
+
+
+def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
+    """Add what the nodal tractions beside the edges of unlike surfaces leave out.
+
+    If D z acts, with z = p + i q at one node and D complex, the gap that it makes is the real part
+    of (zz + i xz) D z, and its creep that of the change of (xz - i xx) D z.
+    """
+    n = len(out) // 2
+    edges = _unlike_edges(fine)
+    zz, xz, xx = made[:, :, n : n + len(edges)] + 1j * made[:, :, n + len(edges) :]
+    gap, creep = (zz + 1j * xz)[:-1], np.diff(xz - 1j * xx, axis=0)
+    for column, (edge, _, inwards) in enumerate(edges):
+        node = edge + inwards
+        by_traction = np.concatenate([gap[:, column], creep[:, column]])
+        out[:, node] += by_traction.real
+        out[:, n + node] -= by_traction.imag
+
+
+def _unlike_edges(fine: Subdivision) -> list[tuple[int, complex, int]]:
+    """Return the edges with exponents: index in nodes[1:-1], kappa, and the step inwards."""
+    steps = (1 - 2 * (number % 2) for number in range(len(fine.edges)))
+    edges = zip(fine.edges, fine.exponents, steps, strict=True)
+    return list(compress(edges, fine.exponents))
+
+
+def shorter_per_traction(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
+    """Return u_z/R of the upper minus the lower surface, per pressure and per shear; None: 0.
+
+    Parameters
+    ----------
+    per_traction : (6, N, N-1) as in `Mesh`.
+    hoops : 1/R of both surfaces where their layers are rings [1/mm].
+    """
+    if not any(hoops):
+        return None
+    _, zz_u, xz_u, _, zz_l, xz_l = per_traction
+    by_pressure = hoops[0] * zz_u - hoops[1] * zz_l
+    return np.concatenate([by_pressure, -hoops[0] * xz_u - hoops[1] * xz_l], axis=1)

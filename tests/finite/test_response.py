@@ -153,6 +153,27 @@ def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
     np.testing.assert_allclose(old, new, atol=5e-3 * np.abs(new).max())
 
 
+def test_a_mesh_laid_by_the_expected_correction_stays(monkeypatch):
+    """Without it the loaded columns of a large correction lie aside, and are laid once more."""
+    laid, inner = [], FiniteResponse._remeshed
+
+    def counted(*given):
+        laid.append(1)
+        return inner(*given)
+
+    monkeypatch.setattr(FiniteResponse, "_remeshed", counted)
+    nodes, p, q = tractions(0.4)
+    q *= -2.0
+    twice, once = response_of(COVERINGS["rubber"]), response_of(COVERINGS["rubber"])
+    wanted = twice.correction(nodes, p, q)
+    assert len(laid) == 1
+    found = once.correction(nodes, p, q, expected=wanted[0])
+    assert len(laid) == 1
+    x = np.linspace(-0.98, 0.98, 99) * HALF
+    for one, other in zip(found, wanted, strict=True):
+        np.testing.assert_allclose(one(x), other(x), atol=1e-3 * np.abs(other(x)).max())
+
+
 @pytest.mark.parametrize("peak", [0.1, 1.0])
 def test_a_roller_that_winds_up_on_a_thin_core_has_no_equilibrium(peak):
     """Columns pass each other, or none is left in front: this broke off the program."""
@@ -171,7 +192,8 @@ def test_a_state_is_carried_to_other_columns_as_it_is():
     displacement, pressure = rng.normal(size=coarse.size), rng.normal(size=(coarse.layer.size, 3))
     there = MeshState(displacement, pressure).on_columns(coarse, fine)
     moved, pressed = there.displacement, there.pressure
-    gradient, finer = coarse.gradient(displacement), fine.gradient(moved)
+    gradient = coarse.gradient(coarse.local(displacement))
+    finer = fine.gradient(fine.local(moved))
     rows = depths.row_layers.size
     weights = coarse.volumes, fine.volumes
     for wide, narrow in ((gradient[2], finer[2]), (pressure @ LINEAR.T, pressed @ LINEAR.T)):

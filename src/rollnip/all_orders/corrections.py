@@ -86,7 +86,7 @@ class PairCorrection:
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
         has_several_zones = len(latest.zones) > 1
         correction, is_full_load = self.of_tractions(
-            sides, latest.state.creepage, has_several_zones=has_several_zones
+            sides, latest.state.creepage, kernels.held, has_several_zones=has_several_zones
         )
         if not grips_skin(self.nip):
             return correction, is_full_load
@@ -99,6 +99,7 @@ class PairCorrection:
         self,
         sides: tuple[RollerTractions, RollerTractions],
         creepage: float,
+        held: SecondFields | None,
         *,
         has_several_zones: bool = False,
     ) -> tuple[SecondFields, bool]:
@@ -108,6 +109,7 @@ class PairCorrection:
         ----------
         sides : tractions of the upper and of the lower roller.
         creepage : of the upper roller against the lower one.
+        held : the correction with which the tractions were found; None: none.
         has_several_zones : whether the contact has zones of stick and of slip.
 
         Returns
@@ -129,7 +131,10 @@ class PairCorrection:
                 rough += [None, None]
                 continue
             functions += response.correction(
-                *sides[side], rates[side], has_several_zones=has_several_zones
+                *sides[side],
+                rates[side],
+                has_several_zones=has_several_zones,
+                expected=None if held is None else held.functions[2 * side],
             )
             rough += response.rough
             lost[side] = response.extra_heat

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,12 +39,9 @@ class FollowerLoad:
     def of(cls, strip: Strip, displacement: Array, tractions: Tractions) -> FollowerLoad:
         """Return the loads at displacements (unknowns,), with tractions given at present places."""
         surface = strip.surface
-        local = displacement[surface.unknowns]
+        (u_x, _), (x_rate, y_rate) = surface.moved(displacement)
         x, along, up = surface.undeformed
-        x = x + (surface.values @ local[..., :1])[..., 0]
-        rates = surface.slopes @ local
-        acting = surface.weights * tractions(x)
-        return cls(strip, along + rates[..., 0], up + rates[..., 1], acting)
+        return cls(strip, along + x_rate, up + y_rate, surface.weights * tractions(x + u_x))
 
     @classmethod
     def undeformed(cls, strip: Strip, tractions: Tractions) -> FollowerLoad:
@@ -52,36 +50,29 @@ class FollowerLoad:
         _, cos, sin = surface.undeformed
         return cls(strip, cos, sin, surface.weights * tractions(surface.arcs))
 
-    @property
+    @cached_property
     def nodal_forces(self) -> Array:
         """External forces at the nodes, (unknowns,) [N/mm]."""
         along, up, (p, q, _, _) = self.along, self.up, self.tractions
+        force = np.empty((2, *p.shape))
+        force[0], force[1] = q * along - p * up, p * along + q * up
         surface = self.strip.surface
-        force = np.stack([q * along - p * up, p * along + q * up], axis=-1)
-        made = surface.values.transpose(0, 2, 1) @ force
-        return summed(surface.unknowns.ravel(), made.ravel(), self.strip.size)
+        return summed(surface.unknowns.ravel(), surface.at_nodes(force).ravel(), self.strip.size)
 
     @property
     def stiffness(self) -> tuple[Indices, Array]:
         """Load stiffness, the derivative of the forces: places in banded storage, and entries."""
         surface = self.strip.surface
-        n, d = surface.values, surface.slopes
         along, up, (p, q, p_slope, q_slope) = self.along, self.up, self.tractions
-        turned, sheared = _between(n, p, d), _between(n, q, d)
-        entries = np.empty((self.strip.columns, 3, 2, 3, 2))
-        entries[:, :, 0, :, 0] = sheared + _between(n, q_slope * along - p_slope * up, n)
-        entries[:, :, 1, :, 0] = turned + _between(n, p_slope * along + q_slope * up, n)
-        entries[:, :, 0, :, 1], entries[:, :, 1, :, 1] = -turned, sheared
-        row = np.broadcast_to(surface.unknowns[:, :, :, None, None], entries.shape)
-        column = np.broadcast_to(surface.unknowns[:, None, None], entries.shape)
-        return self.strip.place(row, column).ravel(), entries.ravel()
+        turned, sheared = (surface.between_shape_and_slope(one) for one in (p, q))
+        entries = np.empty((2, 2, self.strip.columns, 3, 3))
+        entries[0, 0] = sheared + surface.between_shapes(q_slope * along - p_slope * up)
+        entries[1, 0] = turned + surface.between_shapes(p_slope * along + q_slope * up)
+        entries[0, 1], entries[1, 1] = -turned, sheared
+        row, column = surface.unknowns[:, None, :, :, None], surface.unknowns[:, :, None]
+        return self.strip.place(*np.broadcast_arrays(row, column)).ravel(), entries.ravel()
 
 
 def summed(places: Indices, values: Array, count: int) -> Array:
     """Return the sums of the values with the same place, (count,)."""
     return np.asarray(np.bincount(places, values, minlength=count), dtype=float)
-
-
-def _between(shape: Array, values: Array, other: Array) -> Array:
-    """Return the sums over points of shape_a values other_b, (columns, 3, 3)."""
-    return np.asarray((shape * values[..., None]).transpose(0, 2, 1) @ other)

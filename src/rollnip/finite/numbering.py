@@ -29,6 +29,14 @@ def unknowns(columns: int, elements: int) -> Indices:
     return numbers
 
 
+@lru_cache(maxsize=_MESHES_KEPT)
+def unknowns_from_one(columns: int, elements: int) -> Indices:
+    """Return the same numbers in a row, from 1 on; 0 on the core."""
+    numbers = unknowns(columns, elements).ravel() + 1
+    numbers.setflags(write=False)
+    return numbers
+
+
 def size_and_band(columns: int, elements: int, by_rows: bool = False) -> tuple[int, int]:
     """Return the number of unknowns of such a mesh, and of diagonals on either side of the main."""
     return 4 * elements * (2 * columns + 1), 8 * columns + 9 if by_rows else 8 * elements + 5

@@ -21,9 +21,7 @@ from rollnip.finite.strip import Array, on_circle
 def heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
     """Return w of an equilibrium [N/mm]; about 0 for elastic layers."""
     surface, curvature = body.strip.surface, body.strip.depths.roller.curvature
-    local = displacement[surface.unknowns]
-    moved = np.moveaxis(surface.values @ local, -1, 0)
-    rate = np.moveaxis(surface.slopes @ local, -1, 0)
+    moved, rate = surface.moved(displacement)
     x, y = np.stack(on_circle(surface.arcs, curvature)) + moved
     angle = curvature * surface.arcs
     along, up = np.stack([np.cos(angle), np.sin(angle)]) + rate
@@ -36,9 +34,7 @@ def heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
 def linear_heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
     """Return w = -int (q du_x/ds + p du_z/ds) ds of linear theory [N/mm]."""
     surface, curvature = body.strip.surface, body.strip.depths.roller.curvature
-    local = displacement[surface.unknowns]
-    u_x, u_y = np.moveaxis(surface.values @ local, -1, 0)
-    x_rate, y_rate = np.moveaxis(surface.slopes @ local, -1, 0)
+    (u_x, u_y), (x_rate, y_rate) = surface.moved(displacement)
     cos, sin = np.cos(curvature * surface.arcs), np.sin(curvature * surface.arcs)
     p, q = tractions(surface.arcs)[:2]
     along, into = u_x * cos + u_y * sin, u_y * cos - u_x * sin

@@ -56,10 +56,8 @@ class RelaxingStress:
         shear, lame, rest = constants
         volume = None
         if memory.is_compressible:
-            weighted, inverse = memory.strip.projection
             x_s, x_z, y_s, y_z = deformation
-            ratio = x_s * y_z - x_z * y_s
-            mean = (inverse @ (weighted @ ratio[..., None]))[..., 0] @ LINEAR.T
+            mean = memory.strip.projected(x_s * y_z - x_z * y_s) @ LINEAR.T
             volume = np.empty((4, *mean.shape))
             volume[0] = lame
             for energy, where in energies:
@@ -257,14 +255,11 @@ class RelaxingTangent:
         local = strip.local(displacement)
         change = (self.stress_derivative @ local[..., None]).reshape(local.shape[0], 9, -1)
         far = self.memory.far_integral(change).reshape(local.shape[0], 1, -1)
-        force = far @ self.strain_derivative
-        places = strip.unknowns.ravel() + 1
-        return np.asarray(np.bincount(places, force.ravel(), minlength=strip.size + 1)[1:], float)
+        return strip.assembled(far @ self.strain_derivative)
 
     def pressure_changes(self, local: Array) -> Array | float:
         """Return the changes of pressures (elements, 3) that come from other Gauss points."""
         if self.volume_slope is None:
             return 0.0
-        weighted, inverse = self.memory.strip.projection
-        held = (self._changes_by_others(local)[..., 3] * self.volume_slope)[..., None]
-        return np.asarray((inverse @ (weighted @ held))[..., 0])
+        held = self._changes_by_others(local)[..., 3] * self.volume_slope
+        return self.memory.strip.projected(held)

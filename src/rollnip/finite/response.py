@@ -12,6 +12,7 @@ with the linear displacement u, the tractions t, and the arc s of the material t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,8 @@ _FRONT = 0.8  # largest arc of the front side, over the radius: x increases with
 _SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
 _SAME_PLACE = 0.01  # largest move of column ends with which it is, over the width of the contact
 _STEP_TOLERANCE = 0.01  # tolerance of equilibria, over their first Newton step
+# The same of the first one: its first step is not a change, but finite strain as a whole.
+_FIRST_STEP_TOLERANCE = 1e-4
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
 _LEAST_FRACTION = 0.1  # of the tractions, or of their change, until which load steps are halved
 _MOST_MESHES = 6  # until the columns lie where they should
@@ -143,6 +146,7 @@ class FiniteResponse:
     ) -> None:
         self._linear = linear
         self._speed = self._speed_now = speed
+        self._expected: Callable[[Array], Array] | None = None
         self._depths = Depths.of(roller, half_width)
         self._cut, self._cut_factor = cut, cut_factor
         self._columns = Columns.of(roller, half_width)
@@ -190,6 +194,7 @@ class FiniteResponse:
         rate: float = 1.0,
         *,
         has_several_zones: bool = False,
+        expected: Callable[[Array], Array] | None = None,
     ) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z as functions of the present place x.
 
@@ -199,8 +204,11 @@ class FiniteResponse:
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         rate : speed of the undeformed surface over that of linear theory.
         has_several_zones : whether zones of stick and of slip meet, see `Columns.places`.
+        expected : about the correction of u_x, as a function of x; None: not known. The first mesh
+            is laid by it, so that its loaded columns come to lie where they should.
         """
         self._speed_now = None if self._speed is None else rate * self._speed
+        self._expected = expected
         if not np.any(pressure > 0.0):
             self.rough, self.extra_heat, self.arc_tractions = _no_correction(nodes), 0.0, None
             return self.rough
@@ -309,15 +317,19 @@ class FiniteResponse:
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
             state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
             return replace(last, state=state, applied=applied)
+        step_tolerance = _STEP_TOLERANCE
         if last is not None:
             flat, body, state = self._remeshed(last, places, loaded)
         else:
-            moved = applied.linear_displacement(self._linear, places[loaded])[0]
-            flat, body = self._bodies_on(places, loaded, places[loaded] - moved)
-            arcs = applied.at_arcs(places[loaded], places[loaded] - moved)
-            state = flat.linear_state(arcs.as_function)
+            step_tolerance = _FIRST_STEP_TOLERANCE
+            here = places[loaded]
+            moved = applied.linear_displacement(self._linear, here)[0]
+            if self._expected is not None:
+                moved += self.load_fraction * self._expected(here)
+            flat, body = self._bodies_on(places, loaded, here - moved)
+            state = flat.linear_state(applied.at_arcs(here, here - moved).as_function)
         for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state, step_tolerance=_STEP_TOLERANCE)
+            state = body.equilibrium(tractions, state, step_tolerance=step_tolerance)
             mesh = _LoadedMesh(flat, body, state, loaded, applied)
             if mesh.is_near(places[loaded], None, tolerance):
                 break

@@ -11,7 +11,6 @@ from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.strip import Array, Indices, Strip, quadratics
 from rollnip.materials import Slopes
 
-GMRES_TOLERANCE = 1e-7  # relative residual of an iterative linear solution
 _KRYLOV_VECTORS = 60  # before GMRES restarts
 _MOST_GMRES_CYCLES = 3
 
@@ -28,7 +27,7 @@ class PointFields:
     ----------
     deformation : (4, elements, 9) F at the Gauss points, see `Strip.deformation`.
     c : (elements, 9) G w_J + c, the factor of cof F.
-    isotropic : (elements, 9) 2 G w_I, the factor of F.
+    isotropic : (elements, 9), or (elements, 1) if constant: 2 G w_I, the factor of F.
     pressure_step : (elements, 3) change of the pressures by a Newton step without displacements.
     pressure_rate : (elements, 3, 3) derivatives of the pressures by the volumes.
     energy_slopes : G times the derivatives of w; None where those of second order are zero.
@@ -72,10 +71,10 @@ class Tangent:
     relaxing: RelaxingTangent | None = None
     order: Indices | None = None
 
-    def solve(self, forces: Array, rtol: float = GMRES_TOLERANCE) -> Array:
+    def solve(self, forces: Array, tolerance: float) -> Array:
         """Return the displacements under some nodal forces, (unknowns,).
 
-        ``rtol``: relative residual of the iterative solution, if there is one.
+        ``tolerance``: relative residual of the iterative solution, if there is one.
         """
         first = self._by_factors(forces)
         if self.relaxing is None:
@@ -92,7 +91,7 @@ class Tangent:
             whole,
             first,
             x0=first,
-            rtol=rtol,
+            rtol=tolerance,
             atol=0.0,
             restart=_KRYLOV_VECTORS,
             maxiter=_MOST_GMRES_CYCLES,

@@ -192,18 +192,13 @@ def _volume_law(
         return c, np.zeros(c.shape)
     x_s, x_z, y_s, y_z = strip.deformation(state.displacement)
     ratio = x_s * y_z - x_z * y_s
-
-    def projected(values: Array) -> Array:
-        sums = (strip.volumes * values) @ LINEAR
-        return np.asarray((strip.projection[1] @ sums[..., None])[..., 0])
-
-    mean = projected(ratio) @ LINEAR.T
+    mean = strip.projected(ratio) @ LINEAR.T
     slope, stored = np.empty(mean.shape), np.empty(mean.shape)
     for energy, where in law.energies:
         slope[where] = energy.volume_slopes(mean[where], law.lame[where])[0]
         stored[where] = energy.volume_energy(mean[where], law.lame[where])
-    soft = projected(slope - law.rest * law.shear / mean) @ basis
-    return np.where(law.rigid, c, soft), np.where(law.rigid, 0.0, projected(stored) @ basis)
+    soft = strip.projected(slope - law.rest * law.shear / mean) @ basis
+    return np.where(law.rigid, c, soft), np.where(law.rigid, 0.0, strip.projected(stored) @ basis)
 
 
 def _stresses(

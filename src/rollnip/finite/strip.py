@@ -21,7 +21,6 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _GAUSS = np.polynomial.legendre.leggauss(3)
-_ON_SURFACE = np.polynomial.legendre.leggauss(4)
 _ALONG, _DOWN = (grid.ravel() for grid in np.meshgrid(_GAUSS[0], _GAUSS[0], indexing="ij"))
 _AREA = np.multiply.outer(_GAUSS[1], _GAUSS[1]).ravel()
 LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
@@ -48,6 +47,10 @@ _IN_BASIS = (LINEAR[:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 27)
 _SQUARES = (_BY[:, :, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 81)
 _CROSS = _BY[0][:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)[1]
 _CROSS = (_CROSS - _CROSS.transpose(0, 2, 1)).reshape(9, 81)
+# The same on the surface: at four points, without weights.
+_ON_SURFACE, _SURFACE_WEIGHTS = np.polynomial.legendre.leggauss(4)
+_N, _D = quadratics(_ON_SURFACE)
+_N_N, _N_D = ((_N[:, :, None] * other[:, None]).reshape(4, 9) for other in (_N, _D))
 
 
 @dataclass(frozen=True)
@@ -106,12 +109,12 @@ class Strip:
         """Number of free nodes in each column of nodes: all but the one on the core."""
         return 2 * self.depths.row_layers.size
 
-    @property
+    @cached_property
     def size(self) -> int:
         """Number of unknown displacements."""
         return numbering.size_and_band(*self._kind)[0]
 
-    @property
+    @cached_property
     def _kind(self) -> tuple[int, int, bool]:
         """Columns, elements of each, and whether matrices are ordered by rows of nodes.
 
@@ -200,18 +203,18 @@ class Strip:
         On the unit vectors along the arc and into the roller: x by arc, x by depth, y by arc, y by
         depth.
         """
-        return self.gradient(displacement) + self._at_rest.reshape(4, -1, 9)
+        return self.gradient(self.local(displacement)) + self._at_rest.reshape(4, -1, 9)
 
-    def gradient(self, displacement: Array) -> Array:
-        """Return the displacement gradient in the same form, F less that of the undeformed mesh."""
-        made = self.local(displacement).reshape(-1, 9) @ _BY.reshape(18, 9).T
+    def gradient(self, local: Array) -> Array:
+        """Return the gradient of displacements `local` in the same form, F less that at rest."""
+        made = local.reshape(-1, 9) @ _BY.reshape(18, 9).T
         by = made.reshape(-1, 2, 2, 9).transpose(1, 2, 0, 3)
         out = np.empty(by.shape)
         return np.multiply(by, self._rates, out=out).reshape(4, -1, 9)
 
     def local(self, displacement: Array) -> Array:
         """Return the displacements of the nodes of every element, (elements, 18): x, then y."""
-        return np.append(displacement, 0.0)[self.unknowns]
+        return np.append(displacement, 0.0).take(self.unknowns)
 
     def forces(self, stress: Array) -> Array:
         """Return the nodal forces of nominal stresses (4, elements, 9), (elements, 18)."""
@@ -248,17 +251,35 @@ class Strip:
     def projection(self) -> tuple[Array, Array]:
         """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its mass matrix.
 
-        (inverse @ weighted) projects values at Gauss points on linear functions.
+        (inverse @ weighted) projects values at Gauss points on linear functions, see `projected`.
         """
         weighted = LINEAR.T * self.volumes[:, None, :]
         rows, half = self.depths.row_layers.size, self._grid[0]
         column = np.linalg.inv(weighted[:rows] @ LINEAR) * half[0]  # all columns are alike in shape
         return weighted, np.tile(column, (self.columns, 1, 1)) / half[:, None, None]
 
-    @property
+    @cached_property
+    def _projector(self) -> Array:
+        """The product of both, (element rows, 9, 3): the same in every column."""
+        weighted, inverse = self.projection
+        rows = self.depths.row_layers.size
+        return (inverse[:rows] @ weighted[:rows]).transpose(0, 2, 1)
+
+    def projected(self, values: Array) -> Array:
+        """Return values at Gauss points (elements, 9) in the basis `LINEAR`, (elements, 3)."""
+        by_row = values.reshape(self.columns, -1, 9).transpose(1, 0, 2) @ self._projector
+        return by_row.transpose(1, 0, 2).reshape(-1, 3)
+
+    @cached_property
     def unknowns(self) -> Indices:
         """Numbers of the unknowns of every element, (elements, 18): x, then y; -1 on the core."""
         return numbering.unknowns(self.columns, self.depths.row_layers.size)
+
+    def assembled(self, forces: Array) -> Array:
+        """Return the sums at the nodes (unknowns,) of the forces of elements (elements, 18)."""
+        # Forces on the core, numbered -1, are added up at place 0 and left out.
+        places = numbering.unknowns_from_one(self.columns, self.depths.row_layers.size)
+        return np.asarray(np.bincount(places, forces.ravel(), self.size + 1)[1:], dtype=float)
 
     @property
     def slots(self) -> Indices:
@@ -309,36 +330,52 @@ class Surface:
     arcs : (columns, 4) [mm].
     weights : (columns, 4) lengths that the points stand for [mm]; 0 on the far side of the roller,
         where the places x of the contact occur once more.
-    values, slopes : (columns, 4, 3) shape functions and their derivatives by the arc.
-    unknowns : (columns, 3, 2) numbers of x and y of the three nodes.
+    rates : (columns, 1) derivative of the coordinate on [-1, 1] by the arc.
+    unknowns : (2, columns, 3) numbers of x and of y of the three nodes.
     undeformed : (3, columns, 4) undeformed x, and the derivatives of x and y by the arc.
     """
 
     arcs: Array
     weights: Array
-    values: Array
-    slopes: Array
+    rates: Array
     unknowns: Indices
     undeformed: Array
 
     @classmethod
     def of(cls, strip: Strip) -> Surface:
         """Return the Gauss points of a mesh."""
-        at, weight = _ON_SURFACE
-        values, slopes = quadratics(at)
         half = 0.5 * np.diff(strip.ends)[:, None]
         node = 2 * np.arange(strip.columns)[:, None] + np.arange(3)
-        arcs, curvature = strip.arcs[1::2, None] + half * at, strip.depths.roller.curvature
+        arcs, curvature = strip.arcs[1::2, None] + half * _ON_SURFACE, strip.depths.roller.curvature
         turned = np.cos(curvature * arcs), np.sin(curvature * arcs)
         is_near = curvature * np.abs(arcs) < 0.5 * np.pi
         return cls(
             arcs=arcs,
-            weights=weight * half * is_near,
-            values=np.broadcast_to(values, (strip.columns, *values.shape)),
-            slopes=slopes / half[:, :, None],
-            unknowns=2 * strip.rows * node[:, :, None] + np.arange(2),
+            weights=_SURFACE_WEIGHTS * half * is_near,
+            rates=1.0 / half,
+            unknowns=2 * strip.rows * node + np.arange(2)[:, None, None],
             undeformed=np.stack([on_circle(arcs, curvature)[0], *turned]),
         )
+
+    def moved(self, displacement: Array) -> tuple[Array, Array]:
+        """Return the displacements of the points and their derivatives by the arc.
+
+        Each (2, columns, 4): x, then y.
+        """
+        local = displacement.take(self.unknowns)
+        return local @ _N.T, local @ _D.T * self.rates
+
+    def at_nodes(self, force: Array) -> Array:
+        """Return the forces at the nodes of forces at the points (2, columns, 4), as `unknowns`."""
+        return np.asarray(force @ _N)
+
+    def between_shapes(self, factor: Array) -> Array:
+        """Return the sums over points of N_a factor N_b, (columns, 3, 3); factor (columns, 4)."""
+        return np.asarray(factor @ _N_N).reshape(-1, 3, 3)
+
+    def between_shape_and_slope(self, factor: Array) -> Array:
+        """Return the same of N_a factor dN_b/ds."""
+        return np.asarray((factor * self.rates) @ _N_D).reshape(-1, 3, 3)
 
 
 def on_circle(arcs: Array, curvature: float) -> tuple[Array, Array]:

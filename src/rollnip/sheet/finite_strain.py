@@ -147,7 +147,7 @@ def _iterate_until_settled(
     for _ in range(MOST_CORRECTIONS):
         iterate, refined = contact.iterate, contact.refined
         creepage = sum(iterate.state.creepages)
-        made, is_whole = orders.of_tractions(_sides(iterate), creepage)
+        made, is_whole = orders.of_tractions(_sides(iterate), creepage, kernels.held)
         smooth = replace(kernels, held=made)
         own = formulation.with_corrections(iterate, smooth)
         before, change = change, own.change

@@ -208,7 +208,7 @@ def test_crowding_of_one_is_cosine_places():
 
 
 def test_nodes_crowd_at_one_end_alone():
-    """Each end is that of a zone whose nodes crowd as much at both, with as many elements a layer."""
+    """The first elements are as much shorter there as nodes crowd."""
     n, crowd = 400, 2.0**-10
     lone = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), ((1.0, crowd),))[1:-1]
     first, last = lone[1], 1.0 - lone[-2]
@@ -286,7 +286,9 @@ def test_an_error_in_a_boundary_layer_counts_more_than_one_in_the_middle():
     def counted(place):
         values = np.zeros(nodes.size)
         values[place] = 1.0  # fourth differences of 1, 4, 6, 4, 1 around it
-        even, crowded = (cubic_error(values, nodes, (100,), ((ratio, ratio),)) for ratio in (1.0, r))
+        even, crowded = (
+            cubic_error(values, nodes, (100,), ((ratio, ratio),)) for ratio in (1.0, r)
+        )
         return crowded / even
 
     for place, expected in ((50, 0.5**-0.5), (20, 0.2**-0.5), (80, 0.2**-0.5)):

@@ -30,8 +30,6 @@ from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
 
-_ELEMENTS = cubic_weights(np.zeros(1)).size  # beside an edge: as many as a cubic has nodes
-
 
 def exponent_at_leading_edge(state: int, beta: float, friction: float) -> complex:
     """Return kappa at the leading edge of a zone; at a trailing edge it is the opposite.
@@ -77,8 +75,8 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     -------
     (4 pieces + 1,) at the finer nodes from the edge inwards.
     """
-    t = np.arange(_ELEMENTS * pieces + 1) / pieces
-    nodes = _root(np.arange(_ELEMENTS + 2.0), kappa)
+    t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
+    nodes = _root(np.arange(6.0), kappa)
     values = _root(t, kappa) - _cubics(nodes, t)
     out = _with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
     out.setflags(write=False)
@@ -94,7 +92,7 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     difference between the acting and the exact tractions, with the influence functions of
     half-planes: -ln|x| of either traction in its own direction, and beta pi/2 sign(x) across.
     """
-    count = 4 * _ELEMENTS  # the further from the edge, the less a piece matters
+    count = 16  # elements: the further from the edge, the less they matter
     t = np.arange(count * pieces + 1) / pieces
     unit = np.eye(count + 2, dtype=complex)[1]
     acting = _with_means(_root(t, kappa), _means_of_root(t, kappa))

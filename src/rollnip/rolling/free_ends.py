@@ -35,7 +35,6 @@ _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
 # tractions that need more are not smooth.
 _MOST_TIMES_FIRST = 3.0
 _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the first mesh size
-_LEAST_GROWTH = 1.2  # of the number of elements from size to size
 # Number of elements above which zones found node by node count as known.
 ENOUGH_FOR_ZONES = 100
 
@@ -127,9 +126,8 @@ def _refined(
         if isnan(excess):
             break  # finer meshes do not help a solution that is no number
         last_ratio = excess if excess < inf else min(last_ratio, _FIRST_ERROR_RATIO)
-        finer = _next_count(count, last_ratio, model.tolerance)
-        is_repeated = False
-        count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
+        is_repeated, least = False, _next_count(count, 1.0, model.tolerance)
+        count = max(min(_next_count(count, last_ratio, model.tolerance), int(most)), least)
     return None if best is None or len(history) < 2 else with_secondary_errors(nip, best, history)
 
 
@@ -138,7 +136,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
 
     It is large enough that the least error of such a mesh (`LEAST_ERROR`) meets the tolerance.
     """
-    growth = max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
+    growth = 1.1 * max(ratio, 1.0) ** (1.0 / 3.0)
     claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance)
     return int(max(count * growth, claimed)) + 1
 

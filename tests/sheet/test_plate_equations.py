@@ -71,8 +71,8 @@ def test_no_tension_is_the_limit_of_little():
 def tractions():
     """Tractions on one interface: their spread, and the same as a function."""
     kernels = pair_kernels(nip_with(BOARD), "linear")
-    nodes = cosine_nodes(np.array([-1.1, 0.9]), np.array([12]), (1.0,))
-    mesh = interface_mesh(nodes, subdivided(nodes, np.array([12]), (1.0,)), kernels, 0)
+    nodes = cosine_nodes(np.array([-1.1, 0.9]), np.array([12]))
+    mesh = interface_mesh(nodes, subdivided(nodes, np.array([12])), kernels, 0)
     values = 0.4 * np.sqrt((mesh.inner + 1.1) * (0.9 - mesh.inner)) + 0.1 * mesh.inner
     acting = np.concatenate([[0.0], mesh.acting(values), [0.0]])
     return mesh, values, lambda s: np.interp(s, mesh.fine.nodes, acting, left=0.0, right=0.0)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 import rollnip as rn
-from rollnip.rolling.lengths import boundary_layer, shortest_zone
+from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.search import ZoneSearch
 
 SOFT = rn.Elastic(modulus=0.8, poisson=0.49)
 HARD = rn.Elastic(modulus=1.9, poisson=0.3)
@@ -41,3 +42,41 @@ def test_what_is_left_out_of_free_rolling_is_within_the_claims(load, friction):
     for name in ("approach", "creepage", "nip_width", "peak_pressure"):
         change = abs(getattr(found, name) - getattr(fine, name))
         assert change <= found.error[name] + fine.error[name], name
+
+
+def test_second_parameter_of_dundurs():
+    """(1 - 2 nu)/(2 (1 - nu)) beside a rigid surface; the opposite with the rollers exchanged."""
+    rigid = replace(ROLLING, lower=rn.Roller(radius=20.0))
+    assert dundurs(rigid) == pytest.approx((1.0 - 2.0 * 0.3) / (2.0 * (1.0 - 0.3)))
+    assert dundurs(replace(rigid, upper=rigid.lower, lower=rigid.upper)) == -dundurs(rigid)
+    assert dundurs(replace(ROLLING, lower=ROLLING.upper)) == 0.0
+    relaxing = rn.StandardLinearSolid(
+        modulus=1.9, stiffening=1.1, relaxation_time=1e-3, poisson=0.3
+    )
+    glassy = rn.Elastic(modulus=3.0, poisson=0.3)
+    one, other = (
+        replace(ROLLING, upper=rn.Roller(radius=10.0, layers=(rn.Layer(0.6, material),)), speed=9.0)
+        for material in (relaxing, glassy)
+    )
+    assert dundurs(one) == pytest.approx(dundurs(other))
+
+
+@pytest.mark.parametrize("friction", [0.7, 0.8, 0.9, 1.1])
+def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
+    """As if the slip zones at the edges of unlike surfaces could never be placed."""
+    nip = rn.Nip(
+        upper=rn.Roller(radius=30.0, layers=(rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.3)),)),
+        lower=rn.Roller(radius=40.0),
+        normal=rn.LineLoad(0.4),
+        tangential=rn.Traction(0.0),
+        friction=friction,
+    )
+    fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4))
+    assert fine.converged
+    monkeypatch.setattr(ZoneSearch, "slipping_at_edges", lambda *_: None)
+    found = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-2))
+    assert len(found.final.zones) < len(fine.final.zones)
+    assert found.converged
+    error = abs(found.final.figures.creepage - fine.final.figures.creepage)
+    assert found.final.slip_left_out
+    assert error < found.final.error.creepage

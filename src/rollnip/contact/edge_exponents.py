@@ -37,7 +37,7 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
     Parameters
     ----------
     state : State of the zone.
-    beta : Dundurs' second parameter, between -1/2 and 1/2.
+    beta : Dundurs' second parameter.
     friction : Coulomb coefficient.
     """
     if friction == 0.0:
@@ -90,7 +90,8 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     At a leading edge up to which the surfaces stick that creep is Im[(p + i q) rho] times what a
     unit shear at the last node makes there, with p + i q at that node. It is the integral of the
     difference between the acting and the exact tractions, with the influence functions of
-    half-planes: -ln|x| of either traction in its own direction, and beta pi/2 sign(x) across.
+    half-planes: -ln|x| of either traction in its own direction, and -beta pi/2 sign(x) across,
+    where beta is -tanh(pi Im kappa).
     """
     count = 16  # elements: the further from the edge, the less they matter
     t = np.arange(count * pieces + 1) / pieces

@@ -104,7 +104,7 @@ class TurningSlip:
 def slip_by_turning(
     x: Array, state: ContactState, friction: float, edge: int, kappa: complex, *, leads: bool
 ) -> TurningSlip | None:
-    """Return the slip zone that turning tractions call for; None where surfaces are alike, or slip.
+    """Return the slip zone that turning tractions call for; None where they do not turn.
 
     Towards an edge up to which they stick, the traction of unlike surfaces turns with ln s
     (`edge_exponents`) until it exceeds the bound. Once slip is allowed there, the zone is half as
@@ -114,7 +114,8 @@ def slip_by_turning(
     """
     if not kappa.imag:
         return None
-    beside = edge + (-1 if leads else 1) * np.array([1, 2, 3])
+    inwards = -1 if leads else 1
+    beside = edge + inwards * np.array([1, 2, 3])
     distance = np.abs(x[beside] - x[edge]).tolist()
     tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
     back = turned_back(tractions, distance, kappa)
@@ -127,5 +128,7 @@ def slip_by_turning(
         for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0))
     )
     reach = distance[0] * exp(-turn / abs(kappa.imag))
-    # What slips further inside is not left to be told: it exceeds the bound at nodes.
-    return TurningSlip(0.5 * reach, slip, abs(root)) if reach < distance[-1] else None
+    # In a zone that is shorter than that, tractions are not those of an edge alone.
+    sticks = state.states[edge + inwards :: inwards] == STICK
+    length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
+    return TurningSlip(0.5 * reach, slip, abs(root)) if reach < length else None

@@ -46,7 +46,7 @@ def boundary_layer(nip: Nip) -> float:
 
 
 def dundurs(nip: Nip) -> float:
-    """Return Dundurs' second parameter of both surfaces, between -1/2 and 1/2.
+    """Return the second parameter of Dundurs for both surfaces.
 
     Over short distances a viscoelastic surface is passed before it relaxes.
     """

@@ -1,6 +1,7 @@
 """A nip that cannot be is no result, however well its equations are solved."""
 
 import importlib
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -131,7 +132,7 @@ def test_a_covering_pressed_in_by_its_thickness_is_refused_at_once(geometry, thi
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
-    """`finite` presses it in by 52 %.
+    """`finite` presses it in by 52 or 53 %, on the coarse contact that it is judged on.
 
     That `curved` says 76 % proves nothing: at 20 N/mm it says 65 %, and `finite` converges.
     """
@@ -143,7 +144,7 @@ def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
     solution = rn.solve(nip, rn.Model(geometry="finite"))
     assert not solution.converged
     assert solution.model.geometry == "finite"
-    assert "is pressed in by 52 %" in solution.status
+    assert re.search("is pressed in by 5[23] %", solution.status)
     assert solution.solver.elements < 100
     if not friction:
         lighter = replace(nip, normal=rn.LineLoad(20.0))

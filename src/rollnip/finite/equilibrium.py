@@ -48,7 +48,7 @@ EQUILIBRIUM_TOLERANCE = 1e-5
 # Equilibria that converge take five steps at most (485 of the examples and 100 random nips).
 _MOST_STEPS = 15
 _LEAST_VOLUME = 0.1  # smallest J that a step may lead to
-_STEP_GMRES_TOLERANCE = 1e-2  # relative residual of the iterative solution for a step
+_STEP_GMRES_TOLERANCE = 1e-3  # relative residual of an iterative linear solution within a step
 _LEAST_PART = 1e-2  # smallest part of a Newton step that is tried
 _CONTRACTION = 0.3  # ratio of successive steps up to which a tangent is used again
 # Ratio expected of the step after the first one, if both use the tangent at the start, over the

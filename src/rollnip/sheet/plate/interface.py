@@ -142,7 +142,7 @@ def _highest_about(mesh: Mesh, pressure: Array, top: int) -> tuple[float, float]
 def _turns(cubic: list[float]) -> list[float]:
     """Return the stationary points of a cubic, given by its coefficients from the constant on."""
     _, slope, half_bend, third = cubic
-    inside = half_bend**2 - 3.0 * third * slope
+    inside = half_bend * half_bend - 3.0 * third * slope  # infinite where a power would raise
     if inside < 0.0:
         return []
     far = -half_bend - copysign(sqrt(inside), half_bend)

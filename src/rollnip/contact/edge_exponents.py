@@ -25,7 +25,7 @@ from math import atan, atanh, pi, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_weights
+from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_weights, with_means
 from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
@@ -78,7 +78,7 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
     nodes = _root(np.arange(6.0), kappa)
     values = _root(t, kappa) - _cubics(nodes, t)
-    out = _with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
+    out = with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
     out.setflags(write=False)
     return out
 
@@ -96,8 +96,8 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     count = 16  # elements: the further from the edge, the less they matter
     t = np.arange(count * pieces + 1) / pieces
     unit = np.eye(count + 2, dtype=complex)[1]
-    acting = _with_means(_root(t, kappa), _means_of_root(t, kappa))
-    by_unit = _with_means(_cubics(unit, t), _means_of_cubics(unit, t))
+    acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
+    by_unit = with_means(_cubics(unit, t), _means_of_cubics(unit, t))
     # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
     points, weights = np.polynomial.legendre.leggauss(16)
     x = 0.5 * (1.0 + points)
@@ -135,11 +135,3 @@ def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
     inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
     weights = weights * inside  # dx is 2 t dt
     return np.asarray((weights * _cubics(nodes, inside)).sum(1) / weights.sum(1))
-
-
-def _with_means(values: ComplexArray, means: ComplexArray) -> ComplexArray:
-    """Return ``values`` at finer nodes, adjusted to have given means in between (`Subdivision`)."""
-    lacking = means - 0.5 * (values[:-1] + values[1:])
-    out = values.copy()
-    out[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])
-    return out

@@ -19,10 +19,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rollnip.contact.edge_exponents import exponent_at_leading_edge
-from rollnip.contact.ends import (
-    proposed_move,
-    singular_part,
-)
+from rollnip.contact.ends import proposed_move, singular_part
 from rollnip.contact.features import ContactZone, transition, with_stick_between
 from rollnip.contact.problem import (
     FREE,
@@ -305,10 +302,11 @@ class Layout:
     @property
     def slip_beyond_stick(self) -> Array:
         """Return for each stick zone the length of slip between it and a leading edge, else inf."""
-        leads = np.append(self.states[2:] == FREE, [True, False])[: self.states.size]
-        beyond = np.append(np.diff(self.breaks)[1:], np.inf)
-        slips = np.append(self.states[1:] > STICK, False)
-        return np.where((self.states == STICK) & slips & leads, beyond, np.inf)
+        lengths = np.diff(self.breaks)
+        out = np.full(lengths.size, inf)
+        slips = (self.states[:-1] == STICK) & (self.states[1:] > STICK) & self.is_edge[2:]
+        out[:-1][slips] = lengths[1:][slips]
+        return out
 
     def ends(self, x: Array) -> Indices:
         """Return the indices of the nodes at the breaks, (m + 1,)."""

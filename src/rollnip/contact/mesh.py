@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
 from math import ceil, inf, log2, pi, sqrt
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from scipy.special import ellipj, ellipkm1
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
+Number = TypeVar("Number", np.float64, np.complex128)
 Crowding = tuple[tuple[float, float], ...]
 """How strongly nodes crowd at the start and at the stop of each zone, see `cosine_nodes`."""
 
@@ -261,12 +263,21 @@ def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array
     means = np.zeros((rows.size, n + 1))
     means[rows, columns] = mean.reshape(-1, 4)
 
-    lacking = means - 0.5 * (values[:-1] + values[1:])
-    acting = values.copy()
-    acting[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])  # not at breaks: nothing is smooth there
+    acting = with_means(values, means)
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
     return values, acting, means
+
+
+def with_means(values: NDArray[Number], means: NDArray[Number]) -> NDArray[Number]:
+    """Return ``values`` at finer nodes, adjusted to have given means between them.
+
+    The first and the last stay as they are: nothing is smooth there.
+    """
+    lacking = means - 0.5 * (values[:-1] + values[1:])
+    out = values.copy()
+    out[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])
+    return out
 
 
 def cubic_weights(t: Array) -> Array:

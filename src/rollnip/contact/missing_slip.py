@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import copysign, exp, inf, pi, sqrt
 
@@ -40,12 +40,13 @@ def slipping_at_edges(
         if layout.states[edge - leads] != STICK:
             continue
         beside = x, state, friction, int(ends[edge]), kappa
-        length, slip = slip_beside(*beside, leads=leads)
         turning = slip_by_turning(*beside, leads=leads)
         if turning is not None and matters(turning):
             length, slip = turning.length, turning.state
-        elif length <= least:
-            continue
+        else:
+            length, slip = slip_beside(*beside, leads=leads)
+            if length <= least:
+                continue
         place = breaks[edge]
         breaks.insert(edge + (not leads), place - length if leads else place + length)
         states.insert(edge, slip)
@@ -69,17 +70,15 @@ def slip_beside(
     kappa : of the edge, see `edge_exponents`.
     leads : whether it is the leading edge of its piece of the contact.
     """
-    inwards = -1 if leads else 1
+    step = -1 if leads else 1
+    beside = [_turned_back_beside(x, state, edge, apart * step, kappa) for apart in (1, 2)]
     for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
-        lengths = []
-        for apart in (1, 2):
-            beside = edge + inwards * apart * np.array([1, 2, 3])
-            distance = np.abs(x[beside] - x[edge]).tolist()
-            tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
-            back = turned_back(tractions, distance, kappa)
-            values = [friction * one.real - sign * one.imag for one in back]
-            lengths.append(-outward_move(distance, values, smooth=leads))
-        near, far = lengths
+        near, far = (
+            -outward_move(
+                distance, [friction * one.real - sign * one.imag for one in back], smooth=leads
+            )
+            for distance, back in beside
+        )
         if abs(far - near) < near < inf:
             return near, slip
     return 0.0, State.STICK
@@ -115,10 +114,7 @@ def slip_by_turning(
     if not kappa.imag:
         return None
     inwards = -1 if leads else 1
-    beside = edge + inwards * np.array([1, 2, 3])
-    distance = np.abs(x[beside] - x[edge]).tolist()
-    tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
-    back = turned_back(tractions, distance, kappa)
+    distance, back = _turned_back_beside(x, state, edge, inwards, kappa)
     right = [value / sqrt(d) for value, d in zip(back, distance, strict=True)]
     root = determinant(right, distance, RESPONSE) / determinant((1.0,) * 3, distance, RESPONSE)
     # mu p - sign q is the real part of (mu + i sign)(p + i q): it is 0 where that has turned to i.
@@ -132,3 +128,13 @@ def slip_by_turning(
     sticks = state.states[edge + inwards :: inwards] == STICK
     length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
     return TurningSlip(0.5 * reach, slip, abs(root)) if reach < length else None
+
+
+def _turned_back_beside(
+    x: Array, state: ContactState, edge: int, step: int, kappa: complex
+) -> tuple[list[float], Sequence[complex]]:
+    """Return the distances of three nodes from an edge, ``step`` apart, and p + i q turned back."""
+    beside = edge + step * np.array([1, 2, 3])
+    distance = np.abs(x[beside] - x[edge]).tolist()
+    tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
+    return distance, turned_back(tractions, distance, kappa)

@@ -146,15 +146,13 @@ def _solve_with_fallback(
 def _none_found(nip: Nip) -> str:
     """Return the error message for a membrane without a solution."""
     assert nip.sheet is not None
+    otherwise = "No solution with this sheet was found; try a larger load or other tensions."
     if nip.sheet.bending is False:
-        return none_found(
-            nip,
+        otherwise = (
             "No solution with this sheet bending freely was found; leave `bending` out, or "
-            "try a larger load or other tensions.",
+            "try a larger load or other tensions."
         )
-    return none_found(
-        nip, "No solution with this sheet was found; try a larger load or other tensions."
-    )
+    return none_found(nip, otherwise)
 
 
 def membrane_mesh_solution(nip: Nip, refined: Refined[MembraneIterate]) -> MeshSolution:

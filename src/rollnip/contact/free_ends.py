@@ -38,8 +38,7 @@ NEAR_ENOUGH = 0.1
 
 It is also the misplacement assumed initially, the free surface beside estimated edges, and the
 relative change of a half-width or a correction up to which a contact is an initial guess for the
-next one; and the length of the stick that is put between slip both ways, over the shorter zone of
-slip, on either side.
+next one.
 """
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
@@ -65,10 +64,10 @@ class Layout:
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
         """Return the layout of given zones, with free zones in the gaps between them.
 
-        A short stick zone is put between two slip zones of opposite sign, where the surfaces must
+        A stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
-        zones = with_stick_between(zones, NEAR_ENOUGH)
+        zones = with_stick_between(zones)
         if not zones:
             return None
         breaks, states = [zones[0].start], []

@@ -6,7 +6,6 @@ linear equations for all unknowns together; the signs of their solution show whi
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -163,68 +162,48 @@ def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Ar
     return right
 
 
-def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
+def next_states(
+    problem: ContactProblem,
+    solution: ContactState,
+    rounding: float,
+    *,
+    holds_contact: bool = False,
+) -> States:
     """Return the states implied by a solution: by the signs of gap, pressure, creep and shear.
 
     Violations up to ``rounding``, relative to the scale of each condition, change no state.
+    ``holds_contact``: whether only stick and slip may change; then free nodes and nodes under
+    tension keep their states.
     """
     states, pressure = solution.states, solution.pressure
     depth, drift = gap_and_creep(problem, solution)
-    scale = np.abs(problem.clearance).max() + abs(solution.approach)
-    largest = np.abs(pressure).max()
-    in_contact = states != FREE
-    kept: Mask = np.where(in_contact, pressure >= -rounding * largest, depth < -rounding * scale)
-    if problem.friction == 0.0:
-        return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
-    out: States = kept.astype(np.int8)  # 1: STICK
-    _mark_slipping(out, kept, problem, solution, drift, rounding * largest)
-    (new,) = (kept & ~in_contact).nonzero()
-    if new.size:
-        out[new] = _nearest_states(states, in_contact, new)
-    return out
-
-
-def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """Return stick and slip implied by a solution, with the contact set held.
-
-    Free nodes and nodes under tension keep their states. ``rounding``: see `next_states`.
-    """
-    states, pressure = solution.states, solution.pressure
-    out = states.copy()
+    in_contact, little = states != FREE, rounding * np.abs(pressure).max()
+    kept: Mask = pressure >= -little
+    if holds_contact:
+        kept &= in_contact
+    else:
+        scale = np.abs(problem.clearance).max() + abs(solution.approach)
+        kept = np.where(in_contact, kept, depth < -rounding * scale)
+    out = np.where(kept, np.maximum(states, STICK), states if holds_contact else FREE)
+    out = out.astype(np.int8)
     if problem.friction == 0.0:
         return out
-    made = problem.creep_pressure @ pressure + problem.creep_shear @ solution.shear
-    drift = made + problem.creep_offset + solution.creepage * problem.creep_length
-    little = rounding * float(np.abs(pressure).max())
-    kept: Mask = (states != FREE) & (pressure >= -little)
-    out[kept] = STICK
-    _mark_slipping(out, kept, problem, solution, drift, little)
-    return out
-
-
-def _mark_slipping(
-    out: States,
-    kept: Mask,
-    problem: ContactProblem,
-    solution: ContactState,
-    drift: Array,
-    little: float,
-) -> None:
-    """Mark in ``out`` the nodes that slip, among those ``kept`` in contact.
-
-    ``drift`` is the creep of each interval, ``little`` a pressure below which all is rounding.
-    """
     # The shear that would bring the creep to zero if only this node's shear changed. It tells a
     # slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
     sought = solution.shear - drift / own
-    bound = problem.friction * np.maximum(solution.pressure, 0.0)
+    bound = problem.friction * np.maximum(pressure, 0.0)
     # Hysteresis: within rounding of the bound a node keeps its state.
-    slack, states = problem.friction * little, solution.states
+    slack = problem.friction * little
     plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
     minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
+    out[kept] = STICK
     out[kept & plus] = SLIP_PLUS
     out[kept & minus] = SLIP_MINUS
+    (new,) = (kept & ~in_contact).nonzero()
+    if new.size:
+        out[new] = _nearest_states(states, in_contact, new)
+    return out
 
 
 def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
@@ -251,14 +230,14 @@ class CoupledActiveSet:
     rounding :
         conditions violated by less than this, relative to the largest gap, pressure or creep,
         count as met.
-    wanted :
-        rule for the next states: `next_states`, or `next_slip` to hold the contact set. With the
-        set held, pressures may be negative and surfaces may overlap.
+    holds_contact :
+        whether only stick and slip are sought. Then pressures may be negative, and surfaces may
+        overlap.
     """
 
     max_steps: int = MOST_ITERATIONS
     rounding: float = 1e-11
-    wanted: Callable[[ContactProblem, ContactState, float], States] = next_states
+    holds_contact: bool = False
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """Iterate from ``states`` until a solution implies the states that it was solved with.
@@ -269,7 +248,7 @@ class CoupledActiveSet:
         seen: set[bytes] = set()
         for step in range(1, self.max_steps + 1):
             solution = solve_states(problem, states)
-            wanted = self.wanted(problem, solution, self.rounding)
+            wanted = next_states(problem, solution, self.rounding, holds_contact=self.holds_contact)
             if wanted.tobytes() == states.tobytes():
                 return replace(solution, steps=step, settled=True)
             seen.add(states.tobytes())

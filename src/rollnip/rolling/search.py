@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -15,7 +16,6 @@ from rollnip.contact import (
     State,
     States,
     contact_intervals,
-    next_slip,
     next_states,
     slipping_at_edges,
 )
@@ -29,7 +29,7 @@ from rollnip.rolling.lengths import creepage_by_slip, shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
 from rollnip.rolling.surfaces import Array, PairKernels
 
-_STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
+_STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,14 +136,15 @@ class ZoneSearch:
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
             slack *= NEGLIGIBLE
-        wanted = (next_states if checks_contact else next_slip)(latest.problem, latest.state, slack)
+        implied = partial(next_states, latest.problem, latest.state, slack)
+        wanted = implied(holds_contact=not checks_contact)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
         differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
-        return next_slip(latest.problem, latest.state, slack) if checks_contact else wanted
+        return implied(holds_contact=True) if checks_contact else wanted
 
     def has_tension(self, latest: MeshSolution) -> bool:
         """Return whether there is tension in the contact, outside the elements at edges."""

@@ -18,7 +18,6 @@ cubics in t hold t, the square root, but not t^(1 + 2 kappa).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 from math import atan, atanh, pi, tanh
 
@@ -46,18 +45,6 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
         return -1j * atanh(beta) / pi
     sign = {State.SLIP_PLUS: 1.0, State.SLIP_MINUS: -1.0}[State(state)]
     return complex(sign * atan(friction * beta) / pi)
-
-
-def turned_back(
-    tractions: Sequence[complex], distance: Sequence[float], kappa: complex
-) -> Sequence[complex]:
-    """Return p + i q at distances s_1, s_2, ... from an edge without the factor (s/s_1)^kappa.
-
-    What is left vanishes at the edge as a square root.
-    """
-    if not kappa:
-        return tractions
-    return [t * (s / distance[0]) ** -kappa for t, s in zip(tractions, distance, strict=True)]
 
 
 @lru_cache(maxsize=128)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from rollnip.contact.free_ends import Layout
-from rollnip.contact.problem import Array, Mask
+from rollnip.contact.problem import Array
 
 _LONGEST_STEP = 3.0  # longest step of an end, over the longest proposed move, or the last step
 _TINY = float(np.finfo(float).tiny)
@@ -44,7 +44,7 @@ class Secants:
     _longest: float = 0.0
     _unit: Array | None = None
     _bracket: tuple[Array, Array] | None = None
-    _vanishing: Mask | None = None
+    _vanishing: set[int] = field(default_factory=set)
 
     def forget(self) -> None:
         """Forget the last mesh, as its moves do not compare with those on a different mesh.
@@ -138,9 +138,7 @@ class Secants:
         out[away] = proposed[away]
         return out
 
-    def vanishing(self, layout: Layout, proposed: Layout) -> Mask:
-        """Return the zones to which two successive solutions leave no length, (m,)."""
-        now = layout.vanishing(proposed)
-        again = np.zeros_like(now) if self._vanishing is None else now & self._vanishing
-        self._vanishing = now
-        return again
+    def vanishing(self, layout: Layout, proposed: Layout) -> list[int]:
+        """Return the numbers of the zones to which two successive solutions leave no length."""
+        before, self._vanishing = self._vanishing, layout.vanishing(proposed)
+        return sorted(before & self._vanishing)

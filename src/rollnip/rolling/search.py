@@ -97,8 +97,8 @@ class ZoneSearch:
         """
         layout, proposed = zones
         keeps_stick = _keeps_stick(latest)
-        for number in np.flatnonzero(ends.vanishing(layout, proposed)):
-            fewer = layout.without(int(number), keeps_stick=keeps_stick)
+        for number in ends.vanishing(layout, proposed):
+            fewer = layout.without(number, keeps_stick=keeps_stick)
             if fewer is not None:
                 yield SearchState(fewer, latest)
         if not (is_placed or is_near):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, inf, log2, pi, sqrt
+from math import ceil, inf, pi, sqrt
 from typing import TypeVar
 
 import numpy as np
@@ -302,12 +302,9 @@ def crowding_of(breaks: Array, length: float | Array) -> Crowding:
     breaks : (m,) ends of zones [mm].
     length : of the boundary layers, one for all or (m - 1, 2) at the start and stop of zones [mm].
     """
-    wanted = _CROWDED_LAYER_LENGTHS * length / np.diff(breaks)[:, None] * np.ones(2)
-    return tuple((_power_of_two(start), _power_of_two(stop)) for start, stop in wanted.tolist())
-
-
-def _power_of_two(share: float) -> float:
-    return float(2.0 ** ceil(log2(min(max(share, _ROUNDING), 1.0))))
+    lengths = (breaks[1:] - breaks[:-1])[:, None] * np.ones(2)
+    wanted = (_CROWDED_LAYER_LENGTHS * length / lengths).clip(_ROUNDING, 1.0)
+    return tuple((start, stop) for start, stop in np.exp2(np.ceil(np.log2(wanted))).tolist())
 
 
 def elements_of_zones(
@@ -321,16 +318,11 @@ def elements_of_zones(
     They are about ``count`` in all, and more where nodes crowd. Each zone gets at least
     ``least_share`` of ``count``, and at least `FEWEST_ELEMENTS_OF_A_ZONE`.
     """
-    shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
-    total = sum(shares)
+    shares = np.sqrt(breaks[1:] - breaks[:-1])
     fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(least_share * count))
-    more = [1.0] * len(shares) if crowding is None else [more_elements(ratio) for ratio in crowding]
-    return np.array(
-        [
-            max(round(count * share / total), fewest) * longer
-            for share, longer in zip(shares, more, strict=True)
-        ]
-    ).astype(int)
+    counts: Array = np.maximum(np.rint(count * shares / shares.sum()), fewest)
+    counts *= [more_elements(ratio) for ratio in crowding or uncrowded(counts.size)]
+    return counts.astype(np.intp)
 
 
 @lru_cache(maxsize=128)

@@ -234,20 +234,19 @@ class Mesh:
 
         ``pressure``: at nodes[1:-1] of the mesh [MPa].
         """
-        edges = np.array(self.fine.edges, dtype=int)
-        beside = edges + np.resize([1, -1], edges.size)
-        if np.any(beside == np.argmax(pressure)):
+        edges, highest = self.fine.edges, int(pressure.argmax())
+        if highest - 1 in edges[::2] or highest + 1 in edges[1::2]:
             return True
-        return bool(self.is_beside_edge[np.argmax(self.acting(pressure))])
+        return bool(self.is_beside_edge[self.acting(pressure).argmax()])
 
     @property
     def is_beside_edge(self) -> NDArray[np.bool_]:
         """Return which of the finer nodes[1:-1] lie at an edge or in the element inside it."""
-        x, inner, edges = self.fine.nodes[1:-1], self.inner, self.fine.edges
-        out = np.zeros(x.size, dtype=bool)
+        edges, pieces = self.fine.edges, self.fine.pieces
+        out = np.zeros(self.fine.nodes.size - 2, dtype=bool)
         for trailing, leading in zip(edges[::2], edges[1::2], strict=True):
-            out |= (x >= inner[trailing]) & (x < inner[trailing + 1])
-            out |= (x > inner[leading - 1]) & (x <= inner[leading])
+            out[pieces * trailing : pieces * (trailing + 1)] = True
+            out[pieces * (leading - 1) + 1 : pieces * leading + 1] = True
         return out
 
     def work(self, traction: Array, displacement: Array) -> float:

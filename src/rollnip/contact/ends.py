@@ -18,7 +18,6 @@ RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 Three = Sequence[float]
 _Number = TypeVar("_Number", float, complex)
-_ONES = (1.0, 1.0, 1.0)
 
 
 def roots_beside(
@@ -79,8 +78,8 @@ def singular_part(x: Array, state: ContactState, end: int, inwards: int) -> floa
     ``end``, ``inwards``: as in `proposed_move`.
     """
     distance, roots = roots_beside(x, state, end, inwards, 0j)
-    misplaced = determinant(_ONES, distance, [root.real for root in roots])
-    return misplaced / determinant(_ONES, distance, RESPONSE) * distance[0]
+    misplaced = determinant((1.0, 1.0, 1.0), distance, [root.real for root in roots])
+    return misplaced / determinant((1.0, 1.0, 1.0), distance, RESPONSE) * distance[0]
 
 
 def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
@@ -92,12 +91,12 @@ def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
     result is infinite; its sign still tells which way to move.
     """
     third = [d * d for d in distance] if smooth else RESPONSE
-    whole = determinant(_ONES, distance, third)
+    whole = determinant((1.0, 1.0, 1.0), distance, third)
     root = determinant(roots, distance, third)
     if smooth:
-        bend = determinant(_ONES, roots, third)
+        bend = determinant((1.0, 1.0, 1.0), roots, third)
         return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
-    misplaced = determinant(_ONES, distance, roots)
+    misplaced = determinant((1.0, 1.0, 1.0), distance, roots)
     if root * whole > 0.0:
         return -misplaced / root * distance[0]
     return copysign(inf, -misplaced * whole)
@@ -105,7 +104,7 @@ def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
 
 def root_at(distance: Three, roots: Sequence[complex]) -> complex:
     """Return the factor of the square root at an edge, from `roots_beside`."""
-    return determinant(roots, distance, RESPONSE) / determinant(_ONES, distance, RESPONSE)
+    return determinant(roots, distance, RESPONSE) / determinant((1.0, 1.0, 1.0), distance, RESPONSE)
 
 
 def determinant(a: Sequence[_Number], b: Three, c: Three) -> _Number:

@@ -18,7 +18,7 @@ from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
+from rollnip.rolling.end_search import EndSearch, ZoneSolver, state_at
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
@@ -69,14 +69,14 @@ class Placing:
         most_meshes = self._most_meshes(start.layout)
         without_slip: SearchState | None = None
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
-            step = search.solve_mesh()
+            search.solve_mesh()
             # The figures show errors of ends only with the zones of the previous size.
-            same_zones = settles_figures and step.layout.is_like(start.layout)
-            is_placed = self._is_placed_by(step, zones_known=zones_known, same_zones=same_zones)
-            is_near = not zones_known and step.misplacement < NEAR_ENOUGH and step.is_quiet
+            same_zones = settles_figures and search.layout.is_like(start.layout)
+            is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
+            is_near = not zones_known and search.misplacement < NEAR_ENOUGH and search.is_quiet
             others = self.search.other_zones(
-                step.latest,
-                (step.layout, step.proposed),
+                search.latest,
+                (search.layout, search.proposed),
                 search.ends,
                 is_placed=is_placed,
                 is_near=is_near,
@@ -84,14 +84,14 @@ class Placing:
             other = search.untried(others)
             if other is not None:
                 if other.may_be_left_out:
-                    without_slip = search.result(step)
+                    without_slip = search.result()
                 search.change_zones(other, was_placed=is_placed)
             elif not is_placed:
-                search.move_ends(step)
-            elif self.search.has_tension(step.latest):
+                search.move_ends()
+            elif self.search.has_tension(search.latest):
                 break
             else:
-                return search.result(step)
+                return search.result()
         return without_slip
 
     def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
@@ -110,7 +110,7 @@ class Placing:
             layout, before = state.layout, misplacement
             latest, proposed = self.solver.solve(state, shape)
             misplacement = proposed.distance(layout)
-            is_placed = self._is_placed(layout, proposed, zones_known=True)
+            is_placed = self._are_ends_placed(layout, misplacement, zones_known=True)
             if (
                 not proposed.is_proper
                 or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
@@ -131,7 +131,7 @@ class Placing:
     @cached_property
     def search(self) -> ZoneSearch:
         """The search for other zones that a solution calls for."""
-        return ZoneSearch(self.nip, self.model, self.kernels)
+        return ZoneSearch(self.nip, self.model)
 
     @property
     def _judges_ends_by_figures(self) -> bool:
@@ -142,23 +142,25 @@ class Placing:
         """
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
-    def _is_placed_by(self, step: EndStep, *, zones_known: bool, same_zones: bool) -> bool:
+    def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
         """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
         ``same_zones``: whether figures can be compared with those of the previous size.
         """
-        layout, latest = step.layout, step.latest
+        layout, latest = search.layout, search.latest
         by_figures = same_zones and self._judges_ends_by_figures
         return (
-            self._is_placed(layout, step.proposed, zones_known=zones_known, by_figures=by_figures)
-            and (step.proposed.is_proper and step.is_settled)
-            and not (by_figures and self._changes(latest, step.end_error))
+            self._are_ends_placed(
+                layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
+            )
+            and (search.proposed.is_proper and latest.settled and search.is_quiet)
+            and not (by_figures and self._changes(latest, search.end_error))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
-            and self.solver.meshes.resolves(layout, step.shape)
+            and self.solver.meshes.resolves(layout, latest.mesh.fine.crowding)
         )
 
-    def _is_placed(
-        self, layout: Layout, proposed: Layout, *, zones_known: bool, by_figures: bool = False
+    def _are_ends_placed(
+        self, layout: Layout, misplacement: float, *, zones_known: bool, by_figures: bool = False
     ) -> bool:
         """Return whether the errors of the ends are small relative to the width of the contact.
 
@@ -170,10 +172,8 @@ class Placing:
         length = layout.width
         if zones_known and self.nip.friction == 0.0:
             length = min(length, self.solver.meshes.boundary)
-        shortest = float(np.diff(layout.breaks).min())
-        return proposed.distance(layout) * layout.width <= min(
-            most * length, NEAR_ENOUGH * shortest
-        )
+        shortest = float(layout.lengths.min())
+        return misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
 
     def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.

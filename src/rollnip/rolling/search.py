@@ -21,13 +21,13 @@ from rollnip.contact import (
 )
 from rollnip.contact.features import runs
 from rollnip.contact.secants import Secants
-from rollnip.model import FINITE, Geometry, Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.lengths import creepage_by_slip, shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
-from rollnip.rolling.surfaces import Array, PairKernels
+from rollnip.rolling.surfaces import Array
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 
@@ -73,7 +73,6 @@ class ZoneSearch:
 
     nip: Nip
     model: Model
-    kernels: PairKernels
 
     def other_zones(
         self,
@@ -106,7 +105,7 @@ class ZoneSearch:
         wanted = self.changed_states(latest, layout, checks_contact=is_placed)
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
-            found = self.between_edges(latest, wanted, edges, self.model.geometry)
+            found = self.between_edges(latest, wanted, edges)
             # For the same zones there is nothing to change: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):
                 yield found
@@ -160,16 +159,15 @@ class ZoneSearch:
         return layout.with_gap(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
-        self, latest: MeshSolution, wanted: States | None, edges: Layout, geometry: Geometry
+        self, latest: MeshSolution, wanted: States, edges: Layout
     ) -> SearchState | None:
         """Return the stick and slip zones between given edges, by the active set.
 
-        It holds the contact set, and starts from the states ``wanted`` or, if None, those of the
-        solution. Return None where the nodes keep their states, or the zones have no layout.
+        It holds the contact set, and starts from the states ``wanted``. Return None where the nodes
+        keep the states of the solution, or the zones have no layout.
         """
-        given = latest.state.states
-        found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
-        if not found.settled or np.array_equal(found.states, given):
+        found = _STICK_AND_SLIP.solve(latest.problem, wanted)
+        if not found.settled or np.array_equal(found.states, latest.state.states):
             return None
         pieces = contact_intervals(edges.zones)
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
@@ -178,7 +176,7 @@ class ZoneSearch:
         layout = layout.without_short_zones(
             self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
         )
-        second = second_order(self.nip, geometry, latest.mesh, found)
+        second = second_order(self.nip, self.model.geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 

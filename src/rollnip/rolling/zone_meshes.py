@@ -74,9 +74,9 @@ class ZoneMeshes:
         shortest[:, 1] = np.minimum(self.boundary, layout.slip_beyond_stick)
         return crowding_of(layout.breaks, np.maximum(shortest, coarsest))
 
-    def resolves(self, layout: Layout, shape: Shape) -> bool:
-        """Return whether meshes of a shape resolve the boundary layers of each zone."""
-        return not crowds_more(self.crowding(layout), shape[1])
+    def resolves(self, layout: Layout, crowding: Crowding) -> bool:
+        """Return whether nodes that crowd so resolve the boundary layers of each zone."""
+        return not crowds_more(self.crowding(layout), crowding)
 
     def at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
         """Return the mesh with nodes at the ends of the zones of a solution."""

@@ -184,10 +184,9 @@ def next_states(
     else:
         scale = np.abs(problem.clearance).max() + abs(solution.approach)
         kept = np.where(in_contact, kept, depth < -rounding * scale)
-    out = np.where(kept, np.maximum(states, STICK), states if holds_contact else FREE)
-    out = out.astype(np.int8)
+    others = states if holds_contact else FREE
     if problem.friction == 0.0:
-        return out
+        return np.where(kept, np.maximum(states, STICK), others).astype(np.int8)
     # The shear that would bring the creep to zero if only this node's shear changed. It tells a
     # slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
@@ -195,11 +194,10 @@ def next_states(
     bound = problem.friction * np.maximum(pressure, 0.0)
     # Hysteresis: within rounding of the bound a node keeps its state.
     slack = problem.friction * little
-    plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
-    minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
-    out[kept] = STICK
-    out[kept & plus] = SLIP_PLUS
-    out[kept & minus] = SLIP_MINUS
+    out = np.full(states.size, STICK, dtype=np.int8)
+    out[sought > bound + np.where(states == SLIP_PLUS, -slack, slack)] = SLIP_PLUS
+    out[sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)] = SLIP_MINUS
+    out = np.where(kept, out, others).astype(np.int8)
     (new,) = (kept & ~in_contact).nonzero()
     if new.size:
         out[new] = _nearest_states(states, in_contact, new)

@@ -303,11 +303,13 @@ class Layout:
         return tuple(zone for zone in zones if zone.state != FREE)
 
     @property
-    def slip_beyond_stick(self) -> Array:
+    def slip_beyond_stick(self) -> list[float]:
         """Return for each stick zone the length of slip between it and a leading edge, else inf."""
-        out = np.full(self.states.size, inf)
-        slips = (self.states[:-1] == STICK) & (self.states[1:] > STICK) & self.is_edge[2:]
-        out[:-1][slips] = self.lengths[1:][slips]
+        states, out = [*self.states.tolist(), FREE, FREE], [inf] * self.states.size
+        for number, length in enumerate(self.lengths.tolist()[1:]):
+            here, ahead, beyond = states[number : number + 3]
+            if here == STICK and ahead > STICK and beyond == FREE:
+                out[number] = length
         return out
 
     def ends(self, x: Array) -> Indices:

@@ -158,6 +158,7 @@ def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None
     return _carry(*counts, between=False), _carry(*counts, between=True)
 
 
+@lru_cache(maxsize=8)
 def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) -> Array:
     out = np.zeros((sum(after) + 1, sum(before) + 1))
     row = column = 0
@@ -166,10 +167,10 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
         out[row : row + new, column : column + old + 1] = _carry_zone(old, new, between=between)
         row, column = row + new, column + old
     out[-1, -1] = 1.0
+    out.setflags(write=False)
     return out
 
 
-@lru_cache(maxsize=128)
 def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     """Return the rows of `_carry` for one zone, without its last row, (new, old + 1)."""
     shift = 0.5 if between else 0.0
@@ -177,7 +178,6 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
     out = np.zeros((new, old + 1))
     out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = cubic_weights(places - first)
-    out.setflags(write=False)
     return out
 
 

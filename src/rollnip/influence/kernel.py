@@ -362,12 +362,12 @@ def _transform(
 def _hermite(means: Array, per_octave: int) -> Array:
     """Return coefficients (6, 2 cells, channels) from F_0, F_1, F_2 (3, points, channels, 2)."""
     step = log(2.0) / per_octave
-    f_0, f_1, f_2 = means
+    f_0, f_1, f_2 = np.ascontiguousarray(means)
     slope = (2.0 * step) * (f_1 - f_2)
     half = step**2 * (f_0 - f_1) - step * slope  # of the second derivative
-    curl = np.diff(half, axis=0)
-    turn = np.diff(slope, axis=0) - 2.0 * half[:-1]
-    rise = np.diff(f_2, axis=0) - slope[:-1] - half[:-1]
+    curl = half[1:] - half[:-1]
+    turn = slope[1:] - slope[:-1] - 2.0 * half[:-1]
+    rise = f_2[1:] - f_2[:-1] - slope[:-1] - half[:-1]
     out = np.zeros((6, f_2.shape[0] + 1, *f_2.shape[1:]))
     out[0, 1:], out[1, 1:], out[2, 1:-1] = f_2, slope, half[:-1]
     out[3, 1:-1] = 10.0 * rise - 4.0 * turn + curl

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isfinite, isnan, nan, sqrt
 
 import numpy as np
@@ -58,16 +58,16 @@ class SecondOrder:
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
         matrices = carry(old.fine, new.fine)
-        rates = np.array([self.creep_length, self.creep_offset]) / old.dx
+        rates = self.creep_length / old.dx, self.creep_offset / old.dx
         if matrices is not None:
             nodes, intervals = matrices
-            clearance, rates = nodes @ self.clearance, rates @ intervals.T
+            clearance = nodes @ self.clearance
+            length, offset = (intervals @ rate for rate in rates)
         else:
             clearance = np.interp(new.inner, old.inner, self.clearance)
             middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
-            rates = np.array([np.interp(places, middles, rate) for rate in rates])
-        length, offset = new.dx * rates
-        return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
+            length, offset = (np.interp(places, middles, rate) for rate in rates)
+        return SecondOrder(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
 
     def change(
         self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]

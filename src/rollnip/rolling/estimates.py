@@ -181,6 +181,6 @@ def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
     Small is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width if
     that is more.
     """
-    lengths = np.diff(after)
+    lengths = after[1:] - after[:-1]
     allowed = 3.0 * tolerance * np.maximum(lengths, LEAST_SIZE * lengths.sum())
-    return float(np.max(np.abs(lengths - np.diff(before)) / allowed))
+    return float((np.abs(lengths - (before[1:] - before[:-1])) / allowed).max())

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import accumulate
 from math import inf, log10
 
 import numpy as np
@@ -191,13 +192,11 @@ class Placing:
         A stick zone that is too long by delta has a shear beyond the bound in its last element;
         under a stiff skin, where the slightest stretch causes shear, far beyond it.
         """
-        breaks = np.cumsum((0, *latest.mesh.fine.elements))[1:-1]
-        x = latest.mesh.inner
         over = np.abs(latest.shear) - self.nip.friction * np.maximum(latest.pressure, 0.0)
         least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
-        places = latest.x[over > least]
-        cell = np.searchsorted(x, places)
-        return bool(np.isin(cell, (breaks, breaks + 1)).any())
+        cells = set(latest.mesh.inner.searchsorted(latest.x[over > least]).tolist())
+        breaks = [*accumulate(latest.mesh.fine.elements)][:-1]
+        return any(end in cells or end + 1 in cells for end in breaks)
 
     def _most_meshes(self, layout: Layout) -> int:
         crowding = self.solver.meshes.crowding(layout)

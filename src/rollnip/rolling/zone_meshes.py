@@ -70,9 +70,9 @@ class ZoneMeshes:
         In stick, tractions change, too, over the length of slip between it and a leading edge.
         ``coarsest``: length below which nothing need be resolved [mm].
         """
-        shortest = np.full((layout.states.size, 2), self.boundary)
-        shortest[:, 1] = np.minimum(self.boundary, layout.slip_beyond_stick)
-        return crowding_of(layout.breaks, np.maximum(shortest, coarsest))
+        least = max(self.boundary, coarsest)
+        shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
+        return crowding_of(layout.breaks, np.array(shortest))
 
     def resolves(self, layout: Layout, crowding: Crowding) -> bool:
         """Return whether nodes that crowd so resolve the boundary layers of each zone."""

@@ -55,6 +55,7 @@ class Subdivision:
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
+    pieces : number of linear pieces of an element, except those beyond both edges, which have one.
     """
 
     nodes: Array
@@ -65,14 +66,7 @@ class Subdivision:
     means: Array | None = None
     edges: tuple[int, ...] = ()
     exponents: tuple[complex, ...] = ()
-
-    @property
-    def pieces(self) -> int:
-        """Return the number of linear pieces of an element."""
-        if self.values is None:
-            return 1
-        # All intervals have equally many pieces, except those beyond both edges, which have one.
-        return int((self.nodes.size - 3) // (self.values.shape[1] - 3))
+    pieces: int = 1
 
     def integrated(self, values: Array) -> Array:
         """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
@@ -83,13 +77,10 @@ class Subdivision:
 
     def sums(self, pieces: Array) -> Array:
         """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
-        if self.values is None:
-            return pieces
-        parts = self.pieces
-        out = pieces[::parts].copy()
-        for part in range(1, parts):
-            out[:-1] += pieces[part:-1:parts]
-        return np.asarray(out)
+        out = pieces[:: self.pieces].copy()
+        for part in range(1, self.pieces):
+            out[:-1] += pieces[part : -1 : self.pieces]
+        return out
 
 
 def subdivided(
@@ -129,7 +120,7 @@ def subdivided(
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
     exponents = exponents or (0j,) * len(edges)
-    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents)
+    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, parts)
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:
@@ -158,7 +149,6 @@ def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None
     return _carry(*counts, between=False), _carry(*counts, between=True)
 
 
-@lru_cache(maxsize=8)
 def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) -> Array:
     out = np.zeros((sum(after) + 1, sum(before) + 1))
     row = column = 0
@@ -167,10 +157,10 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
         out[row : row + new, column : column + old + 1] = _carry_zone(old, new, between=between)
         row, column = row + new, column + old
     out[-1, -1] = 1.0
-    out.setflags(write=False)
     return out
 
 
+@lru_cache(maxsize=128)
 def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     """Return the rows of `_carry` for one zone, without its last row, (new, old + 1)."""
     shift = 0.5 if between else 0.0
@@ -178,6 +168,7 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
     first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
     out = np.zeros((new, old + 1))
     out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = cubic_weights(places - first)
+    out.setflags(write=False)
     return out
 
 

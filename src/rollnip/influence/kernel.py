@@ -117,10 +117,14 @@ class Kernel:
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
         """Return one kernel with the channels of several kernels on the same grid, in order."""
         first, cells = kernels[0], kernels[0].coefficients.shape[-1]
-        parts = [kernel.coefficients.reshape(-1, kernel.count, cells) for kernel in kernels]
-        terms = max(map(len, parts))
-        filled = [np.pad(part, ((0, terms - len(part)), (0, 0), (0, 0))) for part in parts]
-        return cls(first.points_per_octave, first.first, np.concatenate(filled, axis=1))
+        terms = max(len(kernel.coefficients) for kernel in kernels)
+        out = np.zeros((terms, sum(kernel.count for kernel in kernels), cells))
+        start = 0
+        for kernel in kernels:
+            part = kernel.coefficients.reshape(-1, kernel.count, cells)
+            out[: len(part), start : start + kernel.count] = part
+            start += kernel.count
+        return cls(first.points_per_octave, first.first, out)
 
     def channel(self, number: int) -> Kernel:
         """Return one channel as a kernel of its own."""

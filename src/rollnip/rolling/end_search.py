@@ -9,92 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
-from rollnip.contact import GivenStates, Layout, elements_of_zones
+from rollnip.contact import Layout, elements_of_zones
 from rollnip.contact.secants import Secants
-from rollnip.influence import has_stiff_skin
-from rollnip.influence.surface import STIFF_SKIN
-from rollnip.model import Model
-from rollnip.nip import Nip
-from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
 from rollnip.rolling.estimates import length_change_ratio
-from rollnip.rolling.iterations import own_second_order, solve_on_mesh
-from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Array, PairKernels
-from rollnip.rolling.zone_meshes import Shape, ZoneMeshes, crowds_more
-
-
-@dataclass(frozen=True)
-class ZoneSolver:
-    """Solver of a contact with given zones, on meshes with nodes at their ends."""
-
-    nip: Nip
-    model: Model
-    kernels: PairKernels
-    given: GivenStates = field(default_factory=GivenStates)
-
-    @cached_property
-    def meshes(self) -> ZoneMeshes:
-        """The meshes whose nodes follow the ends of zones."""
-        return ZoneMeshes(self.nip)
-
-    @cached_property
-    def settled_change(self) -> float:
-        """Change of the second-order terms at which iterations stop, over the tolerance.
-
-        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
-        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
-        accuracy.
-        """
-        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
-
-    @cached_property
-    def _has_skin(self) -> bool:
-        return has_stiff_skin((self.nip.upper, self.nip.lower))
-
-    def renewed(self, state: SearchState) -> SearchState:
-        """Return the state with the second order evaluated from its last solution.
-
-        It is unchanged if the second order has converged, or is fixed.
-        """
-        before = state.before
-        if self.kernels.is_fixed or state.is_quiet:
-            return state
-        mesh, second, change = own_second_order(self.nip, self.model.geometry, self.kernels, before)
-        change /= self.model.tolerance
-        expected = to_come_after(change, state.change)
-        before = replace(before, mesh=mesh, second=second)
-        return SearchState(state.layout, before, change, expected)
-
-    def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
-        """Return the solution on one mesh, and the zones with the ends that it proposes."""
-        layout, before = state.layout, state.before
-        mesh = self.meshes.at_ends(layout, shape, before.mesh.kernels)
-        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
-        latest = solve_on_mesh(
-            self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
-        )
-        proposed = layout.with_proposed_ends(
-            mesh.inner, latest.state, self.nip.friction, mesh.fine.exponents
-        )
-        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
-        if not self._has_skin:
-            shortest = shortest_zone(self.nip, self.model, layout.width)
-            proposed = layout.with_reversals(proposed, shortest)
-        return latest, proposed
-
-    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
-        """Return `Layout.singular`; None with friction, or with several zones.
-
-        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
-        root in the shear, which the pressure follows.
-        """
-        if self.nip.friction > 0.0 or layout.states.size > 1:
-            return None
-        return layout.singular(latest.mesh.inner, latest.state)
+from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
 
 
 @dataclass(slots=True)
@@ -180,7 +101,7 @@ class EndSearch:
         Elements are kept while ends are sought, as another mesh would shift the ends.
         """
         layout = self.layout
-        crowding = self.solver.meshes.crowding(layout, self.nearest * layout.width)
+        crowding = self.solver.crowding(layout, self.nearest * layout.width)
         if self.shape is None or crowds_more(crowding, self.shape[1]):
             self.shape = elements_of_zones(layout.breaks, self.count, crowding), crowding
             self.ends.forget()

@@ -10,7 +10,6 @@ from math import inf
 import numpy as np
 
 from rollnip.materials import memory_integral, relaxation_modulus
-from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, shown_order
@@ -22,7 +21,7 @@ from rollnip.rolling.mesh_solution import (
     SecondaryFigures,
     creepage_scale,
 )
-from rollnip.rolling.secondary import secondary_errors, secondary_figures, secondary_sizes
+from rollnip.rolling.secondary import secondary_errors, secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
 # Least relative error of each of Figures, times the square of the number of elements: measured on
@@ -61,14 +60,6 @@ class RefinementLevel:
     def secondary(self) -> SecondaryFigures:
         """SecondaryFigures figures, evaluated on first use."""
         return self.make_secondary()
-
-
-def refinement_level(
-    nip: Nip, model: Model, latest: MeshSolution, count: int, breaks: Array
-) -> RefinementLevel:
-    """Return the results of the solution on a mesh of ``count`` elements."""
-    make_secondary = partial(secondary_figures, nip, model.geometry, latest)
-    return RefinementLevel(count, latest.figures, breaks, make_secondary)
 
 
 def with_errors(

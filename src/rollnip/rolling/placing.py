@@ -19,11 +19,11 @@ from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.end_search import EndSearch, ZoneSolver, state_at
+from rollnip.rolling.end_search import EndSearch, state_at
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_meshes import are_too_many
+from rollnip.rolling.zone_solver import ZoneSolver, are_too_many
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -134,22 +134,16 @@ class Placing:
         """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model)
 
-    @property
-    def _judges_ends_by_figures(self) -> bool:
-        """Whether ends count as placed once the figures no longer change with them.
-
-        Without friction figures hardly depend on the ends; at finite strain corrections need exact
-        ends, whatever the figures do.
-        """
-        return self.nip.friction > 0.0 and self.model.geometry not in FINITE
-
     def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
         """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
         ``same_zones``: whether figures can be compared with those of the previous size.
         """
         layout, latest = search.layout, search.latest
-        by_figures = same_zones and self._judges_ends_by_figures
+        # Without friction figures hardly depend on the ends; at finite strain corrections need ends
+        # to be exact, whatever the figures do.
+        has_finite_strain = self.model.geometry in FINITE
+        by_figures = same_zones and self.nip.friction > 0.0 and not has_finite_strain
         return (
             self._are_ends_placed(
                 layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
@@ -157,7 +151,7 @@ class Placing:
             and (search.proposed.is_proper and latest.settled and search.is_quiet)
             and not (by_figures and self._changes(latest, search.end_error))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
-            and self.solver.meshes.resolves(layout, latest.mesh.fine.crowding)
+            and self.solver.resolves(layout, latest.mesh.fine.crowding)
         )
 
     def _are_ends_placed(
@@ -172,7 +166,7 @@ class Placing:
         most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
         if zones_known and self.nip.friction == 0.0:
-            length = min(length, self.solver.meshes.boundary)
+            length = min(length, self.solver.boundary)
         shortest = float(layout.lengths.min())
         return misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
 
@@ -199,7 +193,7 @@ class Placing:
         return any(end in cells or end + 1 in cells for end in breaks)
 
     def _most_meshes(self, layout: Layout) -> int:
-        crowding = self.solver.meshes.crowding(layout)
+        crowding = self.solver.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         strongest = min(map(min, crowding))
         most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh

@@ -1,8 +1,8 @@
-"""Meshes of a nip whose nodes lie at the ends of zones."""
+"""The contact of a nip with given zones, solved on meshes whose nodes lie at their ends."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from rollnip.contact import (
     Crowding,
+    GivenStates,
     Layout,
     cosine_nodes,
     crowding_of,
@@ -19,9 +20,16 @@ from rollnip.contact import (
 )
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
 from rollnip.contact.problem import Indices
+from rollnip.influence import has_stiff_skin
+from rollnip.influence.surface import STIFF_SKIN
+from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.lengths import boundary_layer, dundurs
-from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
+from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
+from rollnip.rolling.iterations import own_second_order, solve_on_mesh
+from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.search import SearchState
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
@@ -31,10 +39,16 @@ Shape = tuple[Indices, Crowding]
 
 
 @dataclass(frozen=True)
-class ZoneMeshes:
-    """Meshes of a nip with nodes at the ends of zones, and the lengths that they must resolve."""
+class ZoneSolver:
+    """Solver of a contact with given zones, on meshes with nodes at their ends.
+
+    It knows the lengths of the nip that the meshes must resolve.
+    """
 
     nip: Nip
+    model: Model
+    kernels: PairKernels
+    given: GivenStates = field(default_factory=GivenStates)
 
     @cached_property
     def boundary(self) -> float:
@@ -44,10 +58,6 @@ class ZoneMeshes:
     @cached_property
     def _beta(self) -> float:
         return dundurs(self.nip)
-
-    def exponents(self, layout: Layout) -> tuple[complex, ...]:
-        """Return the exponents of the tractions at the edges of a solution, see `contact`."""
-        return layout.edge_exponents(self._beta, self.nip.friction)
 
     @cached_property
     def longest_piece(self) -> float:
@@ -82,7 +92,7 @@ class ZoneMeshes:
         """Return the mesh with nodes at the ends of the zones of a solution."""
         nodes = cosine_nodes(layout.breaks, *shape)
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-        exponents = self.exponents(layout)
+        exponents = layout.edge_exponents(self._beta, self.nip.friction)
         fine = subdivided(nodes, *shape, self.longest_piece, edges, exponents)
         return mesh_on(nodes, kernels, fine)
 
@@ -92,6 +102,61 @@ class ZoneMeshes:
         nodes = cosine_nodes(zones.breaks, *shape)
         fine = subdivided(nodes, *shape, self.longest_piece)
         return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+
+    @cached_property
+    def settled_change(self) -> float:
+        """Change of the second-order terms at which iterations stop, over the tolerance.
+
+        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
+        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
+        accuracy.
+        """
+        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
+
+    @cached_property
+    def _has_skin(self) -> bool:
+        return has_stiff_skin((self.nip.upper, self.nip.lower))
+
+    def renewed(self, state: SearchState) -> SearchState:
+        """Return the state with the second order evaluated from its last solution.
+
+        It is unchanged if the second order has converged, or is fixed.
+        """
+        before = state.before
+        if self.kernels.is_fixed or state.is_quiet:
+            return state
+        mesh, second, change = own_second_order(self.nip, self.model.geometry, self.kernels, before)
+        change /= self.model.tolerance
+        expected = to_come_after(change, state.change)
+        before = replace(before, mesh=mesh, second=second)
+        return SearchState(state.layout, before, change, expected)
+
+    def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
+        """Return the solution on one mesh, and the zones with the ends that it proposes."""
+        layout, before = state.layout, state.before
+        mesh = self.at_ends(layout, shape, before.mesh.kernels)
+        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
+        latest = solve_on_mesh(
+            self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
+        )
+        proposed = layout.with_proposed_ends(
+            mesh.inner, latest.state, self.nip.friction, mesh.fine.exponents
+        )
+        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        if not self._has_skin:
+            shortest = shortest_zone(self.nip, self.model, layout.width)
+            proposed = layout.with_reversals(proposed, shortest)
+        return latest, proposed
+
+    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
+        """Return `Layout.singular`; None with friction, or with several zones.
+
+        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
+        root in the shear, which the pressure follows.
+        """
+        if self.nip.friction > 0.0 or layout.states.size > 1:
+            return None
+        return layout.singular(latest.mesh.inner, latest.state)
 
 
 def crowds_more(one: Crowding, other: Crowding) -> bool:

@@ -24,7 +24,7 @@ from math import atan, atanh, pi, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_weights, with_means
+from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_matrix, with_means
 from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
@@ -64,7 +64,7 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """
     t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
     nodes = _root(np.arange(6.0), kappa)
-    values = _root(t, kappa) - _cubics(nodes, t)
+    values = _root(t, kappa) - cubic_matrix(t, nodes.size) @ nodes
     out = with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
     out.setflags(write=False)
     return out
@@ -84,7 +84,7 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     t = np.arange(count * pieces + 1) / pieces
     unit = np.eye(count + 2, dtype=complex)[1]
     acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
-    by_unit = with_means(_cubics(unit, t), _means_of_cubics(unit, t))
+    by_unit = with_means(cubic_matrix(t, unit.size) @ unit, _means_of_cubics(unit, t))
     # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
     points, weights = np.polynomial.legendre.leggauss(16)
     x = 0.5 * (1.0 + points)
@@ -110,15 +110,11 @@ def _means_of_root(t: Array, kappa: complex) -> ComplexArray:
     return np.asarray(np.diff(t * t * _root(t, kappa)) / ((1.5 + kappa) * np.diff(t * t)))
 
 
-def _cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
-    """Return at ``t`` the cubics through values at nodes 0, 1, ..."""
-    first = np.clip(np.floor(t).astype(int) - 1, 0, nodes.size - 4)
-    return np.asarray((cubic_weights(t - first) * nodes[first[..., None] + np.arange(4)]).sum(-1))
-
-
 def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
-    """Return the means of `_cubics` over x between ``t``, x growing as t^2."""
+    """Return the means over x between ``t`` of cubics through ``nodes``, x growing as t^2."""
     points, weights = np.polynomial.legendre.leggauss(4)
     inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
     weights = weights * inside  # dx is 2 t dt
-    return np.asarray((weights * _cubics(nodes, inside)).sum(1) / weights.sum(1))
+    return np.asarray(
+        (weights * (cubic_matrix(inside, nodes.size) @ nodes)).sum(1) / weights.sum(1)
+    )

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import copysign, inf
+from math import copysign, inf, sqrt
 from typing import TypeVar
-
-import numpy as np
 
 from rollnip.contact.problem import Array, ContactState
 
@@ -32,12 +30,14 @@ def roots_beside(
     kappa : see `edge_exponents`. The factor (s/s_1)^kappa is taken out of p + i q at the distances
         s_1, s_2, ... What is left vanishes at the edge as a square root.
     """
-    beside = [end + step, end + 2 * step, end + 3 * step]
-    distance = np.abs(x.take(beside) - x[end])
-    roots = (state.pressure.take(beside) + 1j * state.shear.take(beside)) / np.sqrt(distance)
+    # Plain numbers: NumPy would be slower for three values.
+    beside, place = [end + step, end + 2 * step, end + 3 * step], x.item(end)
+    distance = [abs(x.item(node) - place) for node in beside]
+    tractions = [complex(state.pressure.item(i), state.shear.item(i)) for i in beside]
+    roots = [t / sqrt(s) for t, s in zip(tractions, distance, strict=True)]
     if kappa:
-        roots *= (distance / distance[0]) ** -kappa
-    return distance.tolist(), roots.tolist()
+        roots = [r * (s / distance[0]) ** -kappa for r, s in zip(roots, distance, strict=True)]
+    return distance, roots
 
 
 def proposed_move(

@@ -154,7 +154,8 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
     row = column = 0
     for old, new in zip(before, after, strict=True):
         # The last row of a zone is the first of the next one.
-        out[row : row + new, column : column + old + 1] = _carry_zone(old, new, between=between)
+        zone = _carry_zone(old, new, between=between)
+        out[row : row + new, column : column + zone.shape[1]] = zone
         row, column = row + new, column + old
     out[-1, -1] = 1.0
     return out
@@ -162,12 +163,10 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
 
 @lru_cache(maxsize=128)
 def _carry_zone(old: int, new: int, *, between: bool) -> Array:
-    """Return the rows of `_carry` for one zone, without its last row, (new, old + 1)."""
+    """Return the rows of `_carry` for one zone, without its last row."""
     shift = 0.5 if between else 0.0
-    places = (np.arange(new) + shift) * (old / new) - shift
-    first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
-    out = np.zeros((new, old + 1))
-    out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = cubic_weights(places - first)
+    places: Array = (np.arange(float(new)) + shift) * (old / new) - shift
+    out = cubic_matrix(places, old if between else old + 1)
     out.setflags(write=False)
     return out
 
@@ -236,24 +235,15 @@ def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array
     That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
     between these, (pieces n, n + 1).
     """
-    interval, parts = np.arange(n), np.arange(pieces) / pieces
-    first = np.minimum(np.maximum(interval - 1, 0), n - 3)
-    rows = np.arange(pieces * n)[:, None]
-    columns = np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
-    values = np.zeros((rows.size + 1, n + 1))
-    values[rows, columns] = cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
-    values[-1, -1] = 1.0
-
+    finer = np.arange(pieces * n + 1) / pieces
+    values = cubic_matrix(finer, n + 1)
     # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
     # exact for a cubic times a slope dx/ds of the fourth degree, which a piece is short enough for.
-    points, weights = np.polynomial.legendre.leggauss(columns.shape[1])
-    inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
-    slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
-    cubics = cubic_weights((interval - first)[:, None, None] + inside)
-    mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
-    means = np.zeros((rows.size, n + 1))
-    means[rows, columns] = mean.reshape(-1, 4)
-
+    points, weights = np.polynomial.legendre.leggauss(4)
+    inside = finer[:-1, None] + 0.5 * (1.0 + points) / pieces
+    slope = weights * _places(inside / n, ratio)[1]
+    means = (slope[..., None] * cubic_matrix(inside, n + 1)).sum(axis=1)
+    means /= slope.sum(axis=1)[:, None]
     acting = with_means(values, means)
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
@@ -271,10 +261,20 @@ def with_means(values: NDArray[Number], means: NDArray[Number]) -> NDArray[Numbe
     return out
 
 
-def cubic_weights(t: Array) -> Array:
-    """Return the weights of values at 0, 1, 2, 3 in their cubic (Lagrange) at ``t``; (..., 4)."""
-    a, b, c = t - 1.0, t - 2.0, t - 3.0
-    return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
+def cubic_matrix(t: Array, count: int) -> Array:
+    """Return the weights of values at 0 ... count - 1 in their cubics at ``t``, (*t, count).
+
+    Each cubic (Lagrange) is that of the nearest four, two on either side where there are.
+    """
+    first = np.clip(np.floor(t).astype(int) - 1, 0, count - 4)
+    s = t - first
+    a, b, c = s - 1.0, s - 2.0, s - 3.0
+    weights = np.stack(
+        [-a * b * c / 6.0, s * b * c / 2.0, -s * a * c / 2.0, s * a * b / 6.0], axis=-1
+    )
+    out = np.zeros((*t.shape, count))
+    np.put_along_axis(out, first[..., None] + np.arange(4), weights, axis=-1)
+    return out
 
 
 def uncrowded(zones: int) -> Crowding:

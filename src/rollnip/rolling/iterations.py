@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import Protocol
 
 from rollnip._largest import largest
-from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
+from rollnip.contact import (
+    ContactState,
+    ContactZone,
+    GivenStates,
+    Safeguarded,
+    States,
+    contact_zones,
+)
 from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
@@ -19,13 +25,7 @@ from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
-
-class Method(Protocol):
-    """A solver of a contact problem that starts from given states."""
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution, or the last iterate with ``settled`` false."""
-        ...
+Method = GivenStates | Safeguarded
 
 
 def holding(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:

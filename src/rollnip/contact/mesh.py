@@ -116,16 +116,11 @@ def subdivided(
     parts = max(min(ceil(longest / shortest), most), PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
-    finer = finer @ nodes[[1, *_ends(counts)]]
+    finer = finer @ nodes[np.cumsum([1, *counts])]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
     exponents = exponents or (0j,) * len(edges)
     return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, parts)
-
-
-def _ends(elements: tuple[int, ...]) -> list[int]:
-    """Return the index of the last node of each zone; node 0 lies before the first zone."""
-    return [1 + end for end in accumulate(elements)]
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:

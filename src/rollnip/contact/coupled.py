@@ -73,7 +73,7 @@ class LinearSystem:
         signs = shear_signs(states)
         # LAPACK is column-major and the matrix row-major, so the transpose is factorised in place.
         # For such small systems SciPy's wrappers would cost more than LAPACK itself.
-        matrix = _matrix(problem, contact, stick, signs)
+        matrix = system_matrix(problem, contact, stick, signs)
         factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
         if info != 0:
             raise np.linalg.LinAlgError("Singular matrix")
@@ -103,7 +103,7 @@ class LinearSystem:
         return ContactState(self.states, pressure, shear, approach, creepage, steps, settled)
 
     def _unknowns(self, problem: ContactProblem) -> Array:
-        right = _right_side(problem, self.contact, self.stick)
+        right = right_side(problem, self.contact, self.stick)
         if problem.creep_length is self.problem.creep_length:
             return self._divided(right)
         # The creep lengths are the column of the creepage, so new lengths are a rank-one update
@@ -124,7 +124,7 @@ class LinearSystem:
         return np.asarray(solution)
 
 
-def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
+def system_matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
     """Return the matrix: gaps in contact, creeps in stick, then the two prescribed quantities."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
     rows = np.concatenate([contact, n + stick])
@@ -149,8 +149,8 @@ def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Ar
     return matrix
 
 
-def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
-    """Return the right-hand sides of the rows of `_matrix`."""
+def right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
+    """Return the right-hand sides of the rows of `system_matrix`."""
     n_c = contact.size
     right = np.empty(n_c + stick.size + 2)
     right[:n_c] = -problem.clearance[contact]

@@ -23,7 +23,7 @@ from rollnip.rolling.end_search import EndSearch, state_at
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_solver import ZoneSolver, are_too_many
+from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -151,7 +151,7 @@ class Placing:
             and (search.proposed.is_proper and latest.settled and search.is_quiet)
             and not (by_figures and self._changes(latest, search.end_error))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
-            and self.solver.resolves(layout, latest.mesh.fine.crowding)
+            and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
         )
 
     def _are_ends_placed(

@@ -84,10 +84,6 @@ class ZoneSolver:
         shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
         return crowding_of(layout.breaks, np.array(shortest))
 
-    def resolves(self, layout: Layout, crowding: Crowding) -> bool:
-        """Return whether nodes that crowd so resolve the boundary layers of each zone."""
-        return not crowds_more(self.crowding(layout), crowding)
-
     def at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
         """Return the mesh with nodes at the ends of the zones of a solution."""
         nodes = cosine_nodes(layout.breaks, *shape)
@@ -161,7 +157,9 @@ class ZoneSolver:
 
 def crowds_more(one: Crowding, other: Crowding) -> bool:
     """Return whether nodes crowd more in any zone of ``one``, or the number of zones differs."""
-    return len(one) != len(other) or bool(np.any(np.array(one) < np.array(other)))
+    return len(one) != len(other) or any(
+        a < b for ratios in zip(one, other, strict=True) for a, b in zip(*ratios, strict=True)
+    )
 
 
 def are_too_many(zones: int) -> bool:

@@ -201,8 +201,9 @@ class Layout:
         """
         places = proposed.breaks.tolist()
         for number, (behind, ahead) in enumerate(pairwise([inf, *self.lengths.tolist(), inf])):
-            if places[number] == (inf if ahead > behind else -inf if behind > ahead else None):
-                places[number] = float(self.breaks[number])
+            place = places[number]
+            if (place == inf and ahead > behind) or (place == -inf and behind > ahead):
+                places[number] = self.breaks.item(number)
         return {number for number, (a, b) in enumerate(pairwise(places)) if not b > a}
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:

@@ -38,12 +38,15 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
     return np.diff(np.diff(kernel.integral(x[:, None] - nodes)) / np.diff(nodes))
 
 
-def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array) -> Array:
+def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array | None) -> Array:
     """Return the displacement at ``x`` (m,) under tractions (N-1, s) at nodes[1:-1], (m, s) [mm].
 
     The s columns are independent sets of tractions. The result is `displacement_matrix` times the
-    tractions, without forming the matrix. A kernel with channels gives (channels, m, s).
+    tractions, without forming the matrix; where there are none, it is that matrix. A kernel with
+    channels gives (channels, m, s).
     """
+    if tractions is None:
+        return displacement_matrix(kernel, x, nodes)
     lengths = nodes[1:] - nodes[:-1]
     slopes = _steps(tractions) / lengths[:, None]
     furthest = kernel.reach_of_differences * lengths

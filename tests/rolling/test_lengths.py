@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 import rollnip as rn
-from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.lengths import boundary_layer, creepage_by_slip, dundurs, shortest_zone
 from rollnip.rolling.search import ZoneSearch
 
 SOFT = rn.Elastic(modulus=0.8, poisson=0.49)
@@ -80,3 +80,26 @@ def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
     error = abs(found.final.figures.creepage - fine.final.figures.creepage)
     assert found.final.slip_left_out
     assert error < found.final.error.creepage
+
+
+@pytest.mark.parametrize("friction", [0.5, 0.6, 0.7])
+def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out(friction):
+    """It changes the creepage by its length over the width less than at a leading edge."""
+    nip = rn.Nip(
+        upper=rn.Roller(radius=30.0, layers=(rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.3)),)),
+        lower=rn.Roller(radius=40.0),
+        normal=rn.LineLoad(0.4),
+        tangential=rn.Traction(0.0),
+        friction=friction,
+    )
+    fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4)).final
+    found = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-3)).final
+    (slip,) = found.slip_left_out
+    assert not slip.leads
+    sticking = max(fine.zones, key=lambda zone: zone.stop - zone.start)
+    assert slip.length == pytest.approx(sticking.start - fine.zones[0].start, rel=0.2)
+    assert abs(found.figures.creepage - fine.figures.creepage) < found.error.creepage
+    here, leading = (
+        creepage_by_slip(nip, found.figures, one) for one in (slip, replace(slip, leads=True))
+    )
+    assert here == pytest.approx(2.0 * leading * slip.length / found.figures.nip_width)

@@ -103,7 +103,7 @@ def test_no_tension_beside_a_short_zone(geometry, load):
         friction=0.51,
         speed=20.0,
     )
-    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    solution = rn.solve(nip, rn.Model(geometry=geometry, tolerance=3e-4))
     assert solution.converged
     first = solution.zones[0]
     assert first.stop - first.start < 3e-4 * solution.nip_width

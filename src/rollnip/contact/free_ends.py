@@ -171,12 +171,13 @@ class Layout:
         """Return whether another layout has the same states in the same order."""
         return self.key == other.key
 
-    def distance(self, other: Layout) -> float:
+    def distance(self, other: Layout, transitions_count: float = 0.1) -> float:
         """Return the largest distance between breaks of two like layouts, over the width.
 
-        Transitions count a tenth, as figures of the nip depend on them only to second order.
+        Transitions count a tenth unless told otherwise, as figures of the nip depend on them only
+        to second order.
         """
-        moves = np.abs(self.breaks - other.breaks) * np.where(self.is_edge, 1.0, 0.1)
+        moves = np.abs(self.breaks - other.breaks) * np.where(self.is_edge, 1.0, transitions_count)
         return float(moves.max()) / other.width
 
     def stepped_towards(self, proposed: Layout) -> Layout:

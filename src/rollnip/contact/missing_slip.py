@@ -89,14 +89,25 @@ class TurningSlip:
 
     Attributes
     ----------
-    length : of it [mm].
-    state : of it.
+    reach : length over which the tractions of the solution exceed the bound [mm].
+    state : of the slip zone.
     amplitude : |p + i q| beside the edge over the root of the distance [MPa/sqrt(mm)].
+    leads : whether it is at a leading edge.
     """
 
-    length: float
+    reach: float
     state: State
     amplitude: float
+    leads: bool
+
+    @property
+    def length(self) -> float:
+        """Length of the zone once slip is allowed there [mm].
+
+        That is about half the reach at a leading edge (on four nips 0.52 to 0.62 of it), and the
+        reach at a trailing edge (on three 0.90 to 1.09).
+        """
+        return 0.5 * self.reach if self.leads else self.reach
 
 
 def slip_by_turning(
@@ -105,8 +116,7 @@ def slip_by_turning(
     """Return the slip zone that turning tractions call for; None where they do not turn.
 
     Towards an edge up to which they stick, the traction of unlike surfaces turns with ln s
-    (`edge_exponents`) until it exceeds the bound. Once slip is allowed there, the zone is half as
-    long as that: on four nips 0.52 to 0.62 of it.
+    (`edge_exponents`) until it exceeds the bound.
 
     Parameters are those of `slip_beside`.
     """
@@ -125,4 +135,4 @@ def slip_by_turning(
     # In a zone that is shorter than that, tractions are not those of an edge alone.
     sticks = state.states[edge + inwards :: inwards] == STICK
     length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
-    return TurningSlip(0.5 * reach, slip, abs(root)) if reach < length else None
+    return TurningSlip(reach, slip, abs(root), leads) if reach < length else None

@@ -163,10 +163,12 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     counts = np.array([level.count for level in history], dtype=float)
     values = np.array([level.figures.array() for level in history])
     values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes miss the peaks under a stiff skin
-    # Two sizes show no order: they are taken as of the second.
+    # Two sizes show no order: they are taken as of the second, but for such peaks.
     order = np.full(5, 2.0)
     if len(history) > 2:
         order = shown_order(counts, np.diff(values, axis=0))
+    elif latest.peaks_beside_transition:
+        order[_PEAK] = 1.0
     change = errors_from_changes(counts, values, order)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)

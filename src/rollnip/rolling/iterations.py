@@ -156,6 +156,5 @@ def with_residual(
         latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
     shortest = shortest_zone(nip, model, latest.figures.nip_width)
-    # Where slip by turning is left out, the bound is exceeded over twice its length.
-    shortest = max(shortest, *(2.0 * slip.length for slip in latest.slip_left_out), 0.0)
+    shortest = max(shortest, *(slip.reach for slip in latest.slip_left_out), 0.0)
     return replace(latest, residual=residual(nip, fields, latest, shortest))

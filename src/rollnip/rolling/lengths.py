@@ -30,10 +30,17 @@ def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:
 
     That is in proportion to its length, to the slope of the gap at the edge over the width, and to
     the tractions beside the edge over those of a contact after Hertz, 2 p_0 sqrt(s/width).
+
+    A creep w changes the creepage under a given traction by int q* w dx. By reciprocity q* is the
+    shear of unit traction that sticks everywhere and rolls the other way. At a distance s it is
+    1/sqrt(s) beside a leading edge, where such rolling ends, and sqrt(s) beside a trailing one:
+    there slip matters less, by its length over the width.
     """
+    width = figures.nip_width
     slope = 0.5 * nip.curvature  # over the width
-    share = slip.amplitude * sqrt(figures.nip_width) / (2.0 * figures.peak_pressure)
-    return _CREEPAGE_BY_SLIP * slope * share * slip.length
+    share = slip.amplitude * sqrt(width) / (2.0 * figures.peak_pressure)
+    by_edge = 1.0 if slip.leads else slip.length / width
+    return _CREEPAGE_BY_SLIP * slope * share * slip.length * by_edge
 
 
 def boundary_layer(nip: Nip) -> float:

@@ -170,6 +170,17 @@ class MeshSolution:
         return bool(self.mesh.fine.elements)
 
     @property
+    def peaks_beside_transition(self) -> bool:
+        """Return whether the highest pressure is at one of the three nodes beside a transition.
+
+        Between unlike surfaces the pressure follows the shear, whose slope is infinite where stick
+        ends towards the trailing edge. Meshes find the height of such a peak to first order only.
+        """
+        transitions = np.cumsum(self.mesh.fine.elements)[:-1]
+        away = np.abs(transitions - np.argmax(self.state.pressure))
+        return bool(np.any(away <= 3))
+
+    @property
     def nodes(self) -> Array:
         """Nodes between which the tractions are linear, (M+1,) [mm]; zero tractions at both ends.
 

@@ -99,30 +99,31 @@ class Placing:
         """Return the solution with the ends moved to where the last solution put them.
 
         It takes one mesh like the last one if the ends hardly move, otherwise two. The ends need
-        not be placed.
+        not be placed, but all of them lie within the tolerance of where the solution puts them: a
+        transition that is misplaced by more has shears beyond the bound beside it, and the
+        correction of such shears would move it again.
 
         Returns
         -------
-        None where the solution calls for other zones, or the ends move by more than before.
+        None where there is no such solution, or it calls for other zones.
         """
         fine = state.before.mesh.fine
-        shape, misplacement = (np.array(fine.elements), fine.crowding), inf
+        shape = np.array(fine.elements), fine.crowding
         for _ in range(2):
-            layout, before = state.layout, misplacement
+            layout = state.layout
             latest, proposed = self.solver.solve(state, shape)
-            misplacement = proposed.distance(layout)
-            is_placed = self._are_ends_placed(layout, misplacement, zones_known=True)
+            moved = proposed.distance(layout)
+            is_placed = self._are_ends_placed(layout, moved, zones_known=True)
             if (
                 not proposed.is_proper
                 or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
             ):
                 return None
-            if misplacement > max(self.model.tolerance, before):
-                return None
+            misplacement = proposed.distance(layout, transitions_count=1.0)
             state = state_at(proposed, latest, state, misplacement)
             if misplacement <= self.model.tolerance:
-                break
-        return state
+                return state
+        return None
 
     @cached_property
     def solver(self) -> ZoneSolver:

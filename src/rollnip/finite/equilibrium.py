@@ -211,10 +211,10 @@ class Body:
         stress[1] -= c * y_s
         stress[2] -= c * x_z
         stress[3] += c * x_s
+        if fields.relaxing is not None:
+            stress += fields.relaxing.nominal
         force = self.strip.forces(stress)
         force += (fields.pressure_step[:, None] @ volume_derivatives)[:, 0]
-        if fields.relaxing is not None:
-            force += fields.relaxing.force
         return self.strip.assembled(force)
 
     @cached_property

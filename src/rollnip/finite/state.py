@@ -102,7 +102,7 @@ class Tangent:
 
     def pressure_changes(self, local: Array) -> Array:
         """Return the changes of the pressures (elements, 3) by displacements (elements, 18)."""
-        made = (self.pressure_derivatives @ local[..., None])[..., 0]
+        made = np.einsum("eij,ej->ei", self.pressure_derivatives, local)
         if self.relaxing is not None:
             made += self.relaxing.pressure_changes(local)
         return np.asarray(made)

@@ -48,11 +48,10 @@ def solve_by_iteration(
 ) -> tuple[PairKernels, Refined[IterateT]] | None:
     """Solve the contact with a sheet together with the corrections of both rollers, by iteration.
 
-    The first corrections are those of a contact in linear geometry. The iteration stays on a coarse
-    mesh until the remaining changes are small. Then the mesh is refined, and the iteration
-    continues until the contact conditions are met with the corrections that follow from the
-    solution itself. Where the iteration does not converge, it is repeated with fewer of the short
-    waves.
+    The iteration starts on a coarse mesh, from the linear displacements, until the remaining
+    changes are small. Then the mesh is refined, and the iteration continues until the contact
+    conditions are met with the corrections that follow from the solution itself. Where the
+    iteration does not converge, it is repeated with fewer of the short waves.
 
     Returns
     -------
@@ -61,9 +60,9 @@ def solve_by_iteration(
     """
     if skin_thickness(formulation.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
-    search = formulation.search(coarse_model(model), kernels)
+    coarse = coarse_model(model)
     try:
-        iterate = search.start(half_width, _elements(formulation, half_width))
+        iterate = _begun(formulation, coarse, kernels, half_width, allowed=coarse.tolerance)
     except np.linalg.LinAlgError:
         return None
     for share in CUT_FACTORS:
@@ -79,12 +78,23 @@ def solve_by_iteration(
     return None
 
 
-def _begun_again(
-    formulation: Formulation[IterateT], model: Model, kernels: PairKernels, half_width: float
+def _begun(
+    formulation: Formulation[IterateT],
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    *,
+    allowed: float = 0.0,
 ) -> IterateT:
-    """Return a solution on a coarse mesh under some corrections, without a previous one."""
+    """Return a solution on a coarse mesh, without a previous one.
+
+    ``allowed``: error of the zone ends, over the width, up to which the solution in linear geometry
+    will do: first corrections need no better one.
+    """
     search, count = formulation.search(model, kernels), _elements(formulation, half_width)
     iterate = search.start(half_width, count)
+    if iterate.misplacement <= allowed:
+        return iterate
     return search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
 
 
@@ -134,7 +144,7 @@ class _Contact(Generic[IterateT]):
         found = search.settle_zones(start.zones, count, start, placed)
         if not found.settled and self.restarts < _MOST_RESTARTS:
             trailing, leading = _edges(self.iterate)
-            found = _begun_again(self.formulation, model, kernels, 0.5 * (leading - trailing))
+            found = _begun(self.formulation, model, kernels, 0.5 * (leading - trailing))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)

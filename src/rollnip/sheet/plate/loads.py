@@ -83,13 +83,16 @@ class PiecewiseLoads:
         return np.asarray(self.tail_moments[1, 0])
 
     def forces_beyond(self, x: Array, values: Array) -> Array:
-        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh."""
-        line, tails = self.lines @ values, self.tail_moments[0] @ values
+        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh, (n,).
+
+        (s, m) for s sets of values, (n, s).
+        """
+        line, tails = (self.lines @ values).T, (self.tail_moments[0] @ values).T
         inside, at = self._inside(x)
         length = self.nodes[at + 1] - inside
-        share = length / (self.nodes[at + 1] - self.nodes[at])
-        means = 0.5 * share * line[at] + (1.0 - 0.5 * share) * line[at + 1]
-        return np.asarray(tails[at + 1] + length * means)
+        share = 0.5 * length / (self.nodes[at + 1] - self.nodes[at])
+        means = share * line[..., at] + (1.0 - share) * line[..., at + 1]
+        return np.asarray(tails[..., at + 1] + length * means)
 
     def _inside(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
         """Return the nearest places on the mesh, and the numbers of the nodes before them."""

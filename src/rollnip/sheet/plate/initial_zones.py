@@ -29,7 +29,7 @@ _REACH = 1.6  # half-length of the first mesh over the half-width of a membrane
 _WIDER = 1.5  # growth of the first mesh where the contact does not fit into it
 _MOST_REACHES = 4
 _MARGIN = 0.15  # over the width, beyond edges that are approximately known
-_NEARER = 0.1  # reduction of the margin where the mesh contained the edges
+_NEARER = 0.25  # reduction of the margin where the mesh contained the edges
 _INSIDE = 0.9  # of the margin: an edge that moved less counts as inside the mesh
 _BESIDE = 8  # elements beyond each approximately known edge
 

@@ -250,9 +250,9 @@ def test_the_status_names_the_errors_beyond_the_tolerance_as_they_are_claimed(ge
         assert (named[name] in solution.status) == (error > 1.0001 * tolerance), name
 
 
-@pytest.mark.parametrize(("number", "bending"), [(147009, True), (146014, False)])
+@pytest.mark.parametrize(("number", "bending"), [(147009, True), (146014, False), (316012, False)])
 def test_a_viscous_loss_of_second_order_claims_what_linear_fields_leave_of_it(number, bending):
-    """It is that of linear fields, 7 to 8 % off here, and claimed to 0.3 % before."""
+    """It is that of linear fields, 7 to 16 % off here, and claimed to 0.3 % before."""
     nip = random_case(number, bending=bending).nip
     driven = nip.tangential
     if isinstance(driven, rn.Traction):

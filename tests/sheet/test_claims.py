@@ -37,9 +37,11 @@ def _errors(number, geometry=None):
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = MembraneSearch(case.nip, model, solution.kernels)
-    fine = search.settle_zones(
-        refined.iterate.zones, round(2.2 * solution.solver.elements), refined.iterate, END_TOLERANCE
-    )
+    zones, count = refined.iterate.zones, round(2.2 * solution.solver.elements)
+    try:
+        fine = search.settle_zones(zones, count, refined.iterate, END_TOLERANCE)
+    except np.linalg.LinAlgError:  # no zones on so much finer a mesh, as where they do not settle
+        return None
     if not fine.settled:
         return None
     (truth,) = MembraneFormulation(case.nip).figures(fine, model.geometry)

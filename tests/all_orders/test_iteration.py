@@ -11,7 +11,7 @@ import rollnip as rn
 from rollnip.all_orders import contact_stages
 from rollnip.finite import FiniteResponse
 from rollnip.materials import Gent, Yeoh
-from rollnip.rolling import zone_meshes
+from rollnip.rolling import zone_solver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -36,8 +36,8 @@ def counts(monkeypatch):
         found["meshes"] += bool(fine.elements)
         return original(nodes, kernels, fine)
 
-    original = zone_meshes.mesh_on
-    monkeypatch.setattr(zone_meshes, "mesh_on", mesh_on)
+    original = zone_solver.mesh_on
+    monkeypatch.setattr(zone_solver, "mesh_on", mesh_on)
     return found
 
 

@@ -132,7 +132,7 @@ def transformed(nodes, panels, b=1.0):
     samples = np.concatenate([c[:-1], [0.0], w[-1:] * c[-1:]])[None].astype(complex)
     found = inverse_transform(samples, octaves, points, (8, panels), nodes)
     x = 2.0 ** (np.arange(points[0] * 8, points[1] * 8 + 1) / 8)
-    return found[0, :, 0, 0], k0(b * x) / np.pi
+    return found[0, 0, 0], k0(b * x) / np.pi
 
 
 def error_of(nodes, panels):

@@ -37,9 +37,11 @@ def _errors(number, geometry=None):
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = MembraneSearch(case.nip, model, solution.kernels)
-    fine = search.settle_zones(
-        refined.iterate.zones, round(2.2 * solution.solver.elements), refined.iterate, END_TOLERANCE
-    )
+    zones, count = refined.iterate.zones, round(2.2 * solution.solver.elements)
+    try:
+        fine = search.settle_zones(zones, count, refined.iterate, END_TOLERANCE)
+    except np.linalg.LinAlgError:  # no zones on so much finer a mesh, as where they do not settle
+        return None
     if not fine.settled:
         return None
     (truth,) = MembraneFormulation(case.nip).figures(fine, model.geometry)
@@ -248,3 +250,26 @@ def test_the_status_names_the_errors_beyond_the_tolerance_as_they_are_claimed(ge
     assert errors["peak pressure on the lower roller"] == pytest.approx(below, rel=1e-12)
     for name, error in errors.items():
         assert (named[name] in solution.status) == (error > 1.0001 * tolerance), name
+
+
+@pytest.mark.parametrize(("number", "bending"), [(147009, True), (146014, False), (316012, False)])
+def test_a_viscous_loss_of_second_order_claims_what_linear_fields_leave_of_it(number, bending):
+    """It is that of linear fields, 7 to 16 % off here, and claimed to 0.3 % before."""
+    nip = random_case(number, bending=bending).nip
+    driven = nip.tangential
+    if isinstance(driven, rn.Traction):
+        driven = rn.Traction(8.0 * driven.traction)
+    tensions = {name: 8.0 * getattr(nip.sheet, name) for name in ("tension_in", "tension_out")}
+    nip = replace(
+        nip,
+        normal=rn.LineLoad(8.0 * nip.normal.load),
+        tangential=driven,
+        sheet=replace(nip.sheet, **tensions),
+    )
+    second, finite = (rn.solve(nip, rn.Model(geometry=one)) for one in ("second", "finite"))
+    off = abs(second.dissipation_viscous - finite.dissipation_viscous)
+    assert off > 0.05 * finite.dissipation_viscous
+    assert off <= second.error["dissipation_viscous"] < 3.0 * off
+    assert second.error["rolling_resistance"] == pytest.approx(
+        second.error["dissipation_viscous"] / (second.load * nip.speed)
+    )

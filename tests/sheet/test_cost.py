@@ -9,7 +9,7 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.all_orders.corrections import PairCorrection
-from rollnip.rolling import zone_meshes
+from rollnip.rolling import zone_solver
 from rollnip.sheet.membrane import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -20,7 +20,7 @@ def counted(monkeypatch):
     """Meshes that are assembled, by their nodes: bare, and with a sheet."""
     meshes = {"bare": [], "sheet": []}
     for module, name, kind in (
-        (zone_meshes, "mesh_on", "bare"),
+        (zone_solver, "mesh_on", "bare"),
         (search, "membrane_mesh_on", "sheet"),
     ):
         assemble = getattr(module, name)

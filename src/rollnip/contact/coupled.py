@@ -6,7 +6,6 @@ linear equations for all unknowns together; the signs of their solution show whi
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,7 +73,7 @@ class LinearSystem:
         signs = shear_signs(states)
         # LAPACK is column-major and the matrix row-major, so the transpose is factorised in place.
         # For such small systems SciPy's wrappers would cost more than LAPACK itself.
-        matrix = _matrix(problem, contact, stick, signs)
+        matrix = system_matrix(problem, contact, stick, signs)
         factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
         if info != 0:
             raise np.linalg.LinAlgError("Singular matrix")
@@ -104,7 +103,7 @@ class LinearSystem:
         return ContactState(self.states, pressure, shear, approach, creepage, steps, settled)
 
     def _unknowns(self, problem: ContactProblem) -> Array:
-        right = _right_side(problem, self.contact, self.stick)
+        right = right_side(problem, self.contact, self.stick)
         if problem.creep_length is self.problem.creep_length:
             return self._divided(right)
         # The creep lengths are the column of the creepage, so new lengths are a rank-one update
@@ -125,7 +124,7 @@ class LinearSystem:
         return np.asarray(solution)
 
 
-def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
+def system_matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
     """Return the matrix: gaps in contact, creeps in stick, then the two prescribed quantities."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
     rows = np.concatenate([contact, n + stick])
@@ -150,8 +149,8 @@ def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Ar
     return matrix
 
 
-def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
-    """Return the right-hand sides of the rows of `_matrix`."""
+def right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
+    """Return the right-hand sides of the rows of `system_matrix`."""
     n_c = contact.size
     right = np.empty(n_c + stick.size + 2)
     right[:n_c] = -problem.clearance[contact]
@@ -163,68 +162,46 @@ def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Ar
     return right
 
 
-def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
+def next_states(
+    problem: ContactProblem,
+    solution: ContactState,
+    rounding: float,
+    *,
+    holds_contact: bool = False,
+) -> States:
     """Return the states implied by a solution: by the signs of gap, pressure, creep and shear.
 
     Violations up to ``rounding``, relative to the scale of each condition, change no state.
+    ``holds_contact``: whether only stick and slip may change; then free nodes and nodes under
+    tension keep their states.
     """
     states, pressure = solution.states, solution.pressure
     depth, drift = gap_and_creep(problem, solution)
-    scale = np.abs(problem.clearance).max() + abs(solution.approach)
-    largest = np.abs(pressure).max()
-    in_contact = states != FREE
-    kept: Mask = np.where(in_contact, pressure >= -rounding * largest, depth < -rounding * scale)
+    in_contact, little = states != FREE, rounding * np.abs(pressure).max()
+    kept: Mask = pressure >= -little
+    if holds_contact:
+        kept &= in_contact
+    else:
+        scale = np.abs(problem.clearance).max() + abs(solution.approach)
+        kept = np.where(in_contact, kept, depth < -rounding * scale)
+    others = states if holds_contact else FREE
     if problem.friction == 0.0:
-        return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
-    out: States = kept.astype(np.int8)  # 1: STICK
-    _mark_slipping(out, kept, problem, solution, drift, rounding * largest)
-    (new,) = (kept & ~in_contact).nonzero()
-    if new.size:
-        out[new] = _nearest_states(states, in_contact, new)
-    return out
-
-
-def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """Return stick and slip implied by a solution, with the contact set held.
-
-    Free nodes and nodes under tension keep their states. ``rounding``: see `next_states`.
-    """
-    states, pressure = solution.states, solution.pressure
-    out = states.copy()
-    if problem.friction == 0.0:
-        return out
-    made = problem.creep_pressure @ pressure + problem.creep_shear @ solution.shear
-    drift = made + problem.creep_offset + solution.creepage * problem.creep_length
-    little = rounding * float(np.abs(pressure).max())
-    kept: Mask = (states != FREE) & (pressure >= -little)
-    out[kept] = STICK
-    _mark_slipping(out, kept, problem, solution, drift, little)
-    return out
-
-
-def _mark_slipping(
-    out: States,
-    kept: Mask,
-    problem: ContactProblem,
-    solution: ContactState,
-    drift: Array,
-    little: float,
-) -> None:
-    """Mark in ``out`` the nodes that slip, among those ``kept`` in contact.
-
-    ``drift`` is the creep of each interval, ``little`` a pressure below which all is rounding.
-    """
+        return np.where(kept, np.maximum(states, STICK), others).astype(np.int8)
     # The shear that would bring the creep to zero if only this node's shear changed. It tells a
     # slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
     sought = solution.shear - drift / own
-    bound = problem.friction * np.maximum(solution.pressure, 0.0)
+    bound = problem.friction * np.maximum(pressure, 0.0)
     # Hysteresis: within rounding of the bound a node keeps its state.
-    slack, states = problem.friction * little, solution.states
-    plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
-    minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
-    out[kept & plus] = SLIP_PLUS
-    out[kept & minus] = SLIP_MINUS
+    slack = problem.friction * little
+    out = np.full(states.size, STICK, dtype=np.int8)
+    out[sought > bound + np.where(states == SLIP_PLUS, -slack, slack)] = SLIP_PLUS
+    out[sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)] = SLIP_MINUS
+    out = np.where(kept, out, others).astype(np.int8)
+    (new,) = (kept & ~in_contact).nonzero()
+    if new.size:
+        out[new] = _nearest_states(states, in_contact, new)
+    return out
 
 
 def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
@@ -251,14 +228,14 @@ class CoupledActiveSet:
     rounding :
         conditions violated by less than this, relative to the largest gap, pressure or creep,
         count as met.
-    wanted :
-        rule for the next states: `next_states`, or `next_slip` to hold the contact set. With the
-        set held, pressures may be negative and surfaces may overlap.
+    holds_contact :
+        whether only stick and slip are sought. Then pressures may be negative, and surfaces may
+        overlap.
     """
 
     max_steps: int = MOST_ITERATIONS
     rounding: float = 1e-11
-    wanted: Callable[[ContactProblem, ContactState, float], States] = next_states
+    holds_contact: bool = False
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """Iterate from ``states`` until a solution implies the states that it was solved with.
@@ -269,7 +246,7 @@ class CoupledActiveSet:
         seen: set[bytes] = set()
         for step in range(1, self.max_steps + 1):
             solution = solve_states(problem, states)
-            wanted = self.wanted(problem, solution, self.rounding)
+            wanted = next_states(problem, solution, self.rounding, holds_contact=self.holds_contact)
             if wanted.tobytes() == states.tobytes():
                 return replace(solution, steps=step, settled=True)
             seen.add(states.tobytes())

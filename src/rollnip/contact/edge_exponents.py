@@ -18,14 +18,13 @@ cubics in t hold t, the square root, but not t^(1 + 2 kappa).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 from math import atan, atanh, pi, tanh
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_weights, with_means
+from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_matrix, with_means
 from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
@@ -48,18 +47,6 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
     return complex(sign * atan(friction * beta) / pi)
 
 
-def turned_back(
-    tractions: Sequence[complex], distance: Sequence[float], kappa: complex
-) -> Sequence[complex]:
-    """Return p + i q at distances s_1, s_2, ... from an edge without the factor (s/s_1)^kappa.
-
-    What is left vanishes at the edge as a square root.
-    """
-    if not kappa:
-        return tractions
-    return [t * (s / distance[0]) ** -kappa for t, s in zip(tractions, distance, strict=True)]
-
-
 @lru_cache(maxsize=128)
 def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
@@ -77,7 +64,7 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """
     t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
     nodes = _root(np.arange(6.0), kappa)
-    values = _root(t, kappa) - _cubics(nodes, t)
+    values = _root(t, kappa) - cubic_matrix(t, nodes.size) @ nodes
     out = with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
     out.setflags(write=False)
     return out
@@ -97,7 +84,7 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     t = np.arange(count * pieces + 1) / pieces
     unit = np.eye(count + 2, dtype=complex)[1]
     acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
-    by_unit = with_means(_cubics(unit, t), _means_of_cubics(unit, t))
+    by_unit = with_means(cubic_matrix(t, unit.size) @ unit, _means_of_cubics(unit, t))
     # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
     points, weights = np.polynomial.legendre.leggauss(16)
     x = 0.5 * (1.0 + points)
@@ -123,15 +110,11 @@ def _means_of_root(t: Array, kappa: complex) -> ComplexArray:
     return np.asarray(np.diff(t * t * _root(t, kappa)) / ((1.5 + kappa) * np.diff(t * t)))
 
 
-def _cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
-    """Return at ``t`` the cubics through values at nodes 0, 1, ..."""
-    first = np.clip(np.floor(t).astype(int) - 1, 0, nodes.size - 4)
-    return np.asarray((cubic_weights(t - first) * nodes[first[..., None] + np.arange(4)]).sum(-1))
-
-
 def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
-    """Return the means of `_cubics` over x between ``t``, x growing as t^2."""
+    """Return the means over x between ``t`` of cubics through ``nodes``, x growing as t^2."""
     points, weights = np.polynomial.legendre.leggauss(4)
     inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
     weights = weights * inside  # dx is 2 t dt
-    return np.asarray((weights * _cubics(nodes, inside)).sum(1) / weights.sum(1))
+    return np.asarray(
+        (weights * (cubic_matrix(inside, nodes.size) @ nodes)).sum(1) / weights.sum(1)
+    )

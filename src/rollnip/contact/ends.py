@@ -6,9 +6,6 @@ from collections.abc import Sequence
 from math import copysign, inf, sqrt
 from typing import TypeVar
 
-import numpy as np
-
-from rollnip.contact.edge_exponents import turned_back
 from rollnip.contact.problem import Array, ContactState
 
 # Discrete form of the inverse square root that a misplaced end leaves: the change of a square-root
@@ -21,9 +18,31 @@ Three = Sequence[float]
 _Number = TypeVar("_Number", float, complex)
 
 
+def roots_beside(
+    x: Array, state: ContactState, end: int, step: int, kappa: complex
+) -> tuple[list[float], list[complex]]:
+    """Return the distances of three nodes from an end, and p + i q there over their square roots.
+
+    Parameters
+    ----------
+    end : index in ``x`` of the node at the end.
+    step : from node to node; its sign points into the zone.
+    kappa : see `edge_exponents`. The factor (s/s_1)^kappa is taken out of p + i q at the distances
+        s_1, s_2, ... What is left vanishes at the edge as a square root.
+    """
+    # Plain numbers: NumPy would be slower for three values.
+    beside, place = [end + step, end + 2 * step, end + 3 * step], x.item(end)
+    distance = [abs(x.item(node) - place) for node in beside]
+    tractions = [complex(state.pressure.item(i), state.shear.item(i)) for i in beside]
+    roots = [t / sqrt(s) for t, s in zip(tractions, distance, strict=True)]
+    if kappa:
+        roots = [r * (s / distance[0]) ** -kappa for r, s in zip(roots, distance, strict=True)]
+    return distance, roots
+
+
 def proposed_move(
-    nodes: Sequence[float],
-    tractions: Sequence[complex],
+    x: Array,
+    state: ContactState,
     end: int,
     inwards: int,
     weight: complex,
@@ -34,7 +53,7 @@ def proposed_move(
 
     Parameters
     ----------
-    nodes, tractions : of the mesh, and p + i q at them.
+    x, state : nodes and a solution.
     end : index of the node at the end.
     inwards : 1 or -1, step of the index into the zone.
     weight : of p + i q, of which the real part vanishes at the end.
@@ -46,10 +65,8 @@ def proposed_move(
     """
     move, reach, apart = inf, 0.0, 1
     while abs(move) > reach and apart <= max(furthest, 1):
-        beside = [end + inwards * apart * i for i in (1, 2, 3)]
-        distance = [abs(nodes[i] - nodes[end]) for i in beside]
-        back = turned_back([tractions[i] for i in beside], distance, kappa)
-        values = [(weight * one).real for one in back]
+        distance, roots = roots_beside(x, state, end, inwards * apart, kappa)
+        values = [(weight * root).real for root in roots]
         move, apart = outward_move(distance, values, smooth=furthest > 0), 2 * apart
         reach = distance[-1]
     return move
@@ -60,33 +77,34 @@ def singular_part(x: Array, state: ContactState, end: int, inwards: int) -> floa
 
     ``end``, ``inwards``: as in `proposed_move`.
     """
-    beside = end + inwards * np.array([1, 2, 3])
-    distance = np.abs(x[beside] - x[end])
-    right = state.pressure[beside] / np.sqrt(distance)
-    patterns = np.stack([np.ones(3), distance, np.array(RESPONSE)], axis=1)
-    return float(np.linalg.solve(patterns, right)[2] * distance[0])
+    distance, roots = roots_beside(x, state, end, inwards, 0j)
+    misplaced = determinant((1.0, 1.0, 1.0), distance, [root.real for root in roots])
+    return misplaced / determinant((1.0, 1.0, 1.0), distance, RESPONSE) * distance[0]
 
 
-def outward_move(distance: Three, values: Three, *, smooth: bool) -> float:
+def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
     """Return how far outwards the end of a zone should move, from values at three nodes inside it.
 
-    The values are fitted by s, s^3 and a third function, s being the square root of the distance
-    from the end: the inverse square root of a misplaced end (`RESPONSE`), or s^5 at a smooth end.
-    Where the fit does not rise inwards as it should, the result is infinite; its sign still tells
-    which way to move.
+    The values, here over the square roots of the distances from the end, are fitted by s, s^3 and a
+    third function, s being that square root: the inverse square root of a misplaced end
+    (`RESPONSE`), or s^5 at a smooth end. Where the fit does not rise inwards as it should, the
+    result is infinite; its sign still tells which way to move.
     """
-    first = (1.0, 1.0, 1.0)
     third = [d * d for d in distance] if smooth else RESPONSE
-    right = [value / sqrt(d) for value, d in zip(values, distance, strict=True)]
-    whole = determinant(first, distance, third)
-    root = determinant(right, distance, third)
+    whole = determinant((1.0, 1.0, 1.0), distance, third)
+    root = determinant(roots, distance, third)
     if smooth:
-        bend = determinant(first, right, third)
+        bend = determinant((1.0, 1.0, 1.0), roots, third)
         return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
-    misplaced = determinant(first, distance, right)
+    misplaced = determinant((1.0, 1.0, 1.0), distance, roots)
     if root * whole > 0.0:
         return -misplaced / root * distance[0]
     return copysign(inf, -misplaced * whole)
+
+
+def root_at(distance: Three, roots: Sequence[complex]) -> complex:
+    """Return the factor of the square root at an edge, from `roots_beside`."""
+    return determinant(roots, distance, RESPONSE) / determinant((1.0, 1.0, 1.0), distance, RESPONSE)
 
 
 def determinant(a: Sequence[_Number], b: Three, c: Three) -> _Number:

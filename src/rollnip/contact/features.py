@@ -38,7 +38,7 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Conta
     squares = np.maximum(state.pressure, 0.0) ** 2
     for first, last in runs(states != FREE):
         edges = _crossing(x, squares, first, -1), _crossing(x, squares, last, +1)
-        zones += _split(x, state, friction, states, (first, last), edges)
+        zones += zones_between(x, state, friction, states, (first, last), edges)
     return tuple(zones)
 
 
@@ -84,7 +84,7 @@ def runs(mask: Mask) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in zip(changes[::2], changes[1::2], strict=True)]
 
 
-def _split(
+def zones_between(
     x: Array,
     state: ContactState,
     friction: float,
@@ -92,7 +92,14 @@ def _split(
     interval: tuple[int, int],
     edges: tuple[float, float],
 ) -> list[ContactZone]:
-    """Return the zones of one contact interval, cut where the state changes."""
+    """Return the zones of one contact interval, cut where the state changes.
+
+    Parameters
+    ----------
+    states : of the nodes; they may differ from those of the solution ``state``.
+    interval : the first and the last node in contact.
+    edges : trailing and leading edge of the interval [mm].
+    """
     first, last = interval
     slack = friction * state.pressure - np.abs(state.shear)
     zones: list[ContactZone] = []
@@ -100,7 +107,7 @@ def _split(
     for i in range(first, last + 1):
         if i < last and states[i + 1] == states[i]:
             continue
-        stop = edges[1] if i == last else transition(x, slack, states, i)
+        stop = edges[1] if i == last else _transition(x, slack, states, i)
         zones.append(ContactZone(start, stop, State(states[i])))
         start = stop
     return zones
@@ -121,7 +128,7 @@ def _without_slivers(states: States) -> States:
     return padded[1:-1]
 
 
-def transition(x: Array, slack: Array, states: States, i: int) -> float:
+def _transition(x: Array, slack: Array, states: States, i: int) -> float:
     """Return the place of a change of state between nodes i and i + 1; slack is mu p - |q|.
 
     It is extrapolated as in `contact_zones`.

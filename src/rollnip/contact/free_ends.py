@@ -13,6 +13,7 @@ derivative known beforehand: from an error of a whole element, one step leaves a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import inf, isfinite
 
@@ -20,9 +21,11 @@ import numpy as np
 
 from rollnip.contact.edge_exponents import exponent_at_leading_edge
 from rollnip.contact.ends import proposed_move, singular_part
-from rollnip.contact.features import ContactZone, transition, with_stick_between
+from rollnip.contact.features import ContactZone, with_stick_between, zones_between
 from rollnip.contact.problem import (
     FREE,
+    SLIP_MINUS,
+    SLIP_PLUS,
     STICK,
     Array,
     ContactState,
@@ -30,7 +33,6 @@ from rollnip.contact.problem import (
     Mask,
     State,
     States,
-    shear_signs,
 )
 
 NEAR_ENOUGH = 0.1
@@ -44,7 +46,7 @@ _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over t
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Layout:
     """A sequence of adjoining zones from the trailing to the leading edge of the contact.
 
@@ -94,17 +96,13 @@ class Layout:
         Only nodes within the pieces count; beyond them pressures may be negative. Return None as
         `of` does, or where a piece has no node in contact.
         """
-        slack = friction * state.pressure - np.abs(state.shear)
         zones: list[ContactZone] = []
         for start, stop in pieces:
             touching = np.flatnonzero((state.states != FREE) & (x > start) & (x < stop))
             if touching.size == 0:
                 return None
-            first, last = touching[0], touching[-1]
-            changes = [i for i in range(first, last) if state.states[i] != state.states[i + 1]]
-            ends = [transition(x, slack, state.states, i) for i in changes]
-            states = [State(int(state.states[i])) for i in (*changes, last)]
-            zones += map(ContactZone, [start, *ends], [*ends, stop], states)
+            nodes = int(touching[0]), int(touching[-1])
+            zones += zones_between(x, state, friction, state.states, nodes, (start, stop))
         return cls.of(tuple(zones))
 
     @classmethod
@@ -141,16 +139,21 @@ class Layout:
         """Trailing and leading edge of the contact [mm]."""
         return float(self.breaks[0]), float(self.breaks[-1])
 
-    @property
+    @cached_property
     def is_edge(self) -> Mask:
-        """Return which breaks are edges of a piece of the contact, not transitions, (m + 1,)."""
-        free = np.concatenate([[True], self.states == FREE, [True]])
-        return np.asarray(free[:-1] | free[1:])
+        """Which breaks are edges of a piece of the contact, not transitions, (m + 1,)."""
+        free = [True, *(self.states == FREE).tolist(), True]
+        return np.array([before or after for before, after in pairwise(free)])
 
-    @property
+    @cached_property
     def width(self) -> float:
         """Width of the contact [mm]."""
         return float(self.breaks[-1] - self.breaks[0])
+
+    @cached_property
+    def lengths(self) -> Array:
+        """Lengths of the zones, (m,) [mm]."""
+        return self.breaks[1:] - self.breaks[:-1]
 
     @property
     def is_proper(self) -> bool:
@@ -173,9 +176,8 @@ class Layout:
         Transitions count a tenth unless told otherwise, as figures of the nip depend on them only
         to second order.
         """
-        moves = np.abs(self.breaks - other.breaks)
-        moves[~self.is_edge] *= transitions_count
-        return float(np.max(moves)) / other.width
+        moves = np.abs(self.breaks - other.breaks) * np.where(self.is_edge, 1.0, transitions_count)
+        return float(moves.max()) / other.width
 
     def stepped_towards(self, proposed: Layout) -> Layout:
         """Return this layout with its breaks moved towards proposed places, in limited steps.
@@ -183,27 +185,26 @@ class Layout:
         A break moves by at most `_LONGEST_MOVE` of the zone that it shortens, so that breaks do not
         cross, and by at most the length of the zone that it extends.
         """
-        lengths = np.diff(self.breaks)
-        behind = np.concatenate([[self.width], lengths])
-        ahead = np.concatenate([lengths, [self.width]])
-        furthest_back = np.minimum(_LONGEST_MOVE * behind, ahead)
-        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, behind)
-        moves = np.clip(proposed.breaks - self.breaks, -furthest_back, furthest_ahead)
+        lengths = np.array([self.width, *self.lengths.tolist(), self.width])
+        behind, ahead = lengths[:-1], lengths[1:]
+        least = -np.minimum(_LONGEST_MOVE * behind, ahead)
+        most = np.minimum(_LONGEST_MOVE * ahead, behind)
+        moves = (proposed.breaks - self.breaks).clip(least, most)
         return Layout(self.breaks + moves, self.states)
 
-    def vanishing(self, proposed: Layout) -> Mask:
-        """Return which zones would have no length with the proposed breaks, (m,).
+    def vanishing(self, proposed: Layout) -> set[int]:
+        """Return the numbers of the zones that would have no length with the proposed breaks.
 
         A break whose proposed place is infinite means only that its zone extends further. Within
         the zone the tractions show no more than about its own length, so a longer neighbour does
         not count as vanishing.
         """
-        lengths, breaks = np.diff(self.breaks), proposed.breaks.copy()
-        behind, ahead = np.append(np.inf, lengths), np.append(lengths, np.inf)
-        unseen = (np.isposinf(breaks) & (ahead > behind)) | (np.isneginf(breaks) & (behind > ahead))
-        breaks[unseen] = self.breaks[unseen]
-        with np.errstate(invalid="ignore"):
-            return np.asarray(~(np.diff(breaks) > 0.0))
+        places = proposed.breaks.tolist()
+        for number, (behind, ahead) in enumerate(pairwise([inf, *self.lengths.tolist(), inf])):
+            place = places[number]
+            if (place == inf and ahead > behind) or (place == -inf and behind > ahead):
+                places[number] = self.breaks.item(number)
+        return {number for number, (a, b) in enumerate(pairwise(places)) if not b > a}
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
         """Return the layout without zone ``number``, which its neighbours take over.
@@ -239,7 +240,7 @@ class Layout:
         """
         layout = self
         while True:
-            lengths = np.where(layout._overlaps(known), np.inf, np.diff(layout.breaks))
+            lengths = np.where(layout._overlaps(known), np.inf, layout.lengths)
             shortest = int(np.argmin(lengths))
             fewer = layout.without(shortest, keeps_stick=keeps_stick)
             if fewer is None or lengths[shortest] >= least:
@@ -255,11 +256,14 @@ class Layout:
     @property
     def reversals(self) -> list[int]:
         """Numbers of the zones of stick where slip changes its sign, shorter than that slip."""
-        signs, lengths = shear_signs(self.states), np.diff(self.breaks)
-        opposite = signs[:-2] * signs[2:] == -1.0
-        between = opposite & (self.states[1:-1] == STICK)
-        between &= lengths[1:-1] < lengths[:-2] + lengths[2:]
-        return (np.flatnonzero(between) + 1).tolist()
+        states, lengths = self.states.tolist(), self.lengths.tolist()
+        return [
+            middle
+            for middle in range(1, len(states) - 1)
+            if states[middle] == STICK
+            and {states[middle - 1], states[middle + 1]} == {SLIP_PLUS, SLIP_MINUS}
+            and lengths[middle] < lengths[middle - 1] + lengths[middle + 1]
+        ]
 
     def with_reversals(self, proposed: Layout, least: float) -> Layout:
         """Return the proposed zones with a stick of some length wherever slip changes its sign.
@@ -300,17 +304,18 @@ class Layout:
         return tuple(zone for zone in zones if zone.state != FREE)
 
     @property
-    def slip_beyond_stick(self) -> Array:
+    def slip_beyond_stick(self) -> list[float]:
         """Return for each stick zone the length of slip between it and a leading edge, else inf."""
-        lengths = np.diff(self.breaks)
-        out = np.full(lengths.size, inf)
-        slips = (self.states[:-1] == STICK) & (self.states[1:] > STICK) & self.is_edge[2:]
-        out[:-1][slips] = lengths[1:][slips]
+        states, out = [*self.states.tolist(), FREE, FREE], [inf] * self.states.size
+        for number, length in enumerate(self.lengths.tolist()[1:]):
+            here, ahead, beyond = states[number : number + 3]
+            if here == STICK and ahead > STICK and beyond == FREE:
+                out[number] = length
         return out
 
     def ends(self, x: Array) -> Indices:
         """Return the indices of the nodes at the breaks, (m + 1,)."""
-        return np.searchsorted(x, self.breaks - 1e-12 * self.width)
+        return x.searchsorted(self.breaks - 1e-12 * self.width)
 
     def states_on(self, x: Array) -> States:
         """Return the state of each node; a node at a break is FREE or slips, so its shear is known.
@@ -319,7 +324,7 @@ class Layout:
         """
         ends = self.ends(x)
         out = np.full(x.size, FREE, dtype=np.int8)
-        for start, stop, state in zip(ends[:-1], ends[1:], self.states, strict=True):
+        for (start, stop), state in zip(pairwise(ends.tolist()), self.states.tolist(), strict=True):
             slips = state != STICK
             out[start + (not slips) : stop + slips] = state
         out[ends[self.is_edge]] = FREE
@@ -327,12 +332,14 @@ class Layout:
 
     def edge_exponents(self, beta: float, friction: float) -> tuple[complex, ...]:
         """Return the exponents at all edges, trailing edge first, see `contact.edge_exponents`."""
-        out = []
-        for number in np.flatnonzero(self.is_edge).tolist():
-            leads = self.leads(number)
-            state = int(self.states[number - leads])
-            out.append((1.0 if leads else -1.0) * exponent_at_leading_edge(state, beta, friction))
-        return tuple(out)
+        states = [FREE, *self.states.tolist(), FREE]
+        at_edges = (
+            (before, after) for before, after in pairwise(states) if FREE in (before, after)
+        )
+        return tuple(
+            exponent_at_leading_edge(before or after, beta, friction) * (1.0 if before else -1.0)
+            for before, after in at_edges
+        )
 
     def leads(self, edge: int) -> bool:
         """Return whether the edge with the number of its break is a leading edge."""
@@ -358,22 +365,21 @@ class Layout:
         friction : Coulomb coefficient.
         exponents : see `edge_exponents`; empty: square roots at all edges.
         """
-        # Lists, not arrays: NumPy would be slower for three values at each of a few breaks.
-        nodes, tractions = x.tolist(), (state.pressure + 1j * state.shear).tolist()
-        signs, ends = shear_signs(self.states).tolist(), self.ends(x).tolist()
-        edges = self.is_edge.tolist()
-        kappas, breaks = iter(exponents), []
-        for number, (place, end) in enumerate(zip(self.breaks.tolist(), ends, strict=True)):
-            is_edge = edges[number]
-            smooth = not is_edge and self.states[number - 1] == STICK
-            inwards = -1 if smooth or (is_edge and self.leads(number)) else 1
-            # The sign is that of the slip zone: in a short stick zone the shear may change sign.
-            sign = 0 if is_edge else signs[number if smooth else number - 1]
-            kappa = next(kappas, 0j) if is_edge else 0j
-            weight = (1.0 if is_edge else friction) + 1j * sign
+        ends, kappas, breaks = self.ends(x).tolist(), iter(exponents), []
+        sides = pairwise([FREE, *self.states.tolist(), FREE])
+        for number, ((before, after), place) in enumerate(
+            zip(sides, self.breaks.tolist(), strict=True)
+        ):
+            if FREE in (before, after):
+                inwards, weight, kappa = 1 if before == FREE else -1, 1.0 + 0j, next(kappas, 0j)
+            else:
+                # The sign is that of the slip: in a short stick zone the shear may change sign.
+                inwards, slip = (-1, after) if before == STICK else (1, before)
+                weight, kappa = complex(friction, 1.0 if slip == SLIP_PLUS else -1.0), 0j
             # At a smooth end nodes further inside are tried, see `proposed_move`.
-            furthest = (end - ends[number - 1]) // 3 if smooth else 0
-            step = proposed_move(nodes, tractions, end, inwards, weight, kappa, furthest)
+            smooth = before == STICK and after != FREE
+            furthest = (ends[number] - ends[number - 1]) // 3 if smooth else 0
+            step = proposed_move(x, state, ends[number], inwards, weight, kappa, furthest)
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, inf, log2, pi, sqrt
+from math import ceil, inf, pi, sqrt
 from typing import TypeVar
 
 import numpy as np
@@ -55,6 +55,7 @@ class Subdivision:
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
+    pieces : number of linear pieces of an element, except those beyond both edges, which have one.
     """
 
     nodes: Array
@@ -65,14 +66,7 @@ class Subdivision:
     means: Array | None = None
     edges: tuple[int, ...] = ()
     exponents: tuple[complex, ...] = ()
-
-    @property
-    def pieces(self) -> int:
-        """Return the number of linear pieces of an element."""
-        if self.values is None:
-            return 1
-        # All intervals have equally many pieces, except those beyond both edges, which have one.
-        return int((self.nodes.size - 3) // (self.values.shape[1] - 3))
+    pieces: int = 1
 
     def integrated(self, values: Array) -> Array:
         """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
@@ -83,13 +77,10 @@ class Subdivision:
 
     def sums(self, pieces: Array) -> Array:
         """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
-        if self.values is None:
-            return pieces
-        parts = self.pieces
-        out = pieces[::parts].copy()
-        for part in range(1, parts):
-            out[:-1] += pieces[part:-1:parts]
-        return np.asarray(out)
+        out = pieces[:: self.pieces].copy()
+        for part in range(1, self.pieces):
+            out[:-1] += pieces[part : -1 : self.pieces]
+        return out
 
 
 def subdivided(
@@ -125,16 +116,11 @@ def subdivided(
     parts = max(min(ceil(longest / shortest), most), PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
-    finer = finer @ nodes[[1, *_ends(counts)]]
+    finer = finer @ nodes[np.cumsum([1, *counts])]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
     exponents = exponents or (0j,) * len(edges)
-    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents)
-
-
-def _ends(elements: tuple[int, ...]) -> list[int]:
-    """Return the index of the last node of each zone; node 0 lies before the first zone."""
-    return [1 + end for end in accumulate(elements)]
+    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, parts)
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
@@ -163,7 +149,8 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
     row = column = 0
     for old, new in zip(before, after, strict=True):
         # The last row of a zone is the first of the next one.
-        out[row : row + new, column : column + old + 1] = _carry_zone(old, new, between=between)
+        zone = _carry_zone(old, new, between=between)
+        out[row : row + new, column : column + zone.shape[1]] = zone
         row, column = row + new, column + old
     out[-1, -1] = 1.0
     return out
@@ -171,12 +158,10 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
 
 @lru_cache(maxsize=128)
 def _carry_zone(old: int, new: int, *, between: bool) -> Array:
-    """Return the rows of `_carry` for one zone, without its last row, (new, old + 1)."""
+    """Return the rows of `_carry` for one zone, without its last row."""
     shift = 0.5 if between else 0.0
-    places = (np.arange(new) + shift) * (old / new) - shift
-    first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
-    out = np.zeros((new, old + 1))
-    out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = cubic_weights(places - first)
+    places: Array = (np.arange(float(new)) + shift) * (old / new) - shift
+    out = cubic_matrix(places, old if between else old + 1)
     out.setflags(write=False)
     return out
 
@@ -245,24 +230,15 @@ def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array
     That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
     between these, (pieces n, n + 1).
     """
-    interval, parts = np.arange(n), np.arange(pieces) / pieces
-    first = np.minimum(np.maximum(interval - 1, 0), n - 3)
-    rows = np.arange(pieces * n)[:, None]
-    columns = np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
-    values = np.zeros((rows.size + 1, n + 1))
-    values[rows, columns] = cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
-    values[-1, -1] = 1.0
-
+    finer = np.arange(pieces * n + 1) / pieces
+    values = cubic_matrix(finer, n + 1)
     # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
     # exact for a cubic times a slope dx/ds of the fourth degree, which a piece is short enough for.
-    points, weights = np.polynomial.legendre.leggauss(columns.shape[1])
-    inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
-    slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
-    cubics = cubic_weights((interval - first)[:, None, None] + inside)
-    mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
-    means = np.zeros((rows.size, n + 1))
-    means[rows, columns] = mean.reshape(-1, 4)
-
+    points, weights = np.polynomial.legendre.leggauss(4)
+    inside = finer[:-1, None] + 0.5 * (1.0 + points) / pieces
+    slope = weights * _places(inside / n, ratio)[1]
+    means = (slope[..., None] * cubic_matrix(inside, n + 1)).sum(axis=1)
+    means /= slope.sum(axis=1)[:, None]
     acting = with_means(values, means)
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
@@ -280,10 +256,20 @@ def with_means(values: NDArray[Number], means: NDArray[Number]) -> NDArray[Numbe
     return out
 
 
-def cubic_weights(t: Array) -> Array:
-    """Return the weights of values at 0, 1, 2, 3 in their cubic (Lagrange) at ``t``; (..., 4)."""
-    a, b, c = t - 1.0, t - 2.0, t - 3.0
-    return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
+def cubic_matrix(t: Array, count: int) -> Array:
+    """Return the weights of values at 0 ... count - 1 in their cubics at ``t``, (*t, count).
+
+    Each cubic (Lagrange) is that of the nearest four, two on either side where there are.
+    """
+    first = np.clip(np.floor(t).astype(int) - 1, 0, count - 4)
+    s = t - first
+    a, b, c = s - 1.0, s - 2.0, s - 3.0
+    weights = np.stack(
+        [-a * b * c / 6.0, s * b * c / 2.0, -s * a * c / 2.0, s * a * b / 6.0], axis=-1
+    )
+    out = np.zeros((*t.shape, count))
+    np.put_along_axis(out, first[..., None] + np.arange(4), weights, axis=-1)
+    return out
 
 
 def uncrowded(zones: int) -> Crowding:
@@ -302,12 +288,9 @@ def crowding_of(breaks: Array, length: float | Array) -> Crowding:
     breaks : (m,) ends of zones [mm].
     length : of the boundary layers, one for all or (m - 1, 2) at the start and stop of zones [mm].
     """
-    wanted = _CROWDED_LAYER_LENGTHS * length / np.diff(breaks)[:, None] * np.ones(2)
-    return tuple((_power_of_two(start), _power_of_two(stop)) for start, stop in wanted.tolist())
-
-
-def _power_of_two(share: float) -> float:
-    return float(2.0 ** ceil(log2(min(max(share, _ROUNDING), 1.0))))
+    lengths = (breaks[1:] - breaks[:-1])[:, None] * np.ones(2)
+    wanted = (_CROWDED_LAYER_LENGTHS * length / lengths).clip(_ROUNDING, 1.0)
+    return tuple((start, stop) for start, stop in np.exp2(np.ceil(np.log2(wanted))).tolist())
 
 
 def elements_of_zones(
@@ -321,16 +304,11 @@ def elements_of_zones(
     They are about ``count`` in all, and more where nodes crowd. Each zone gets at least
     ``least_share`` of ``count``, and at least `FEWEST_ELEMENTS_OF_A_ZONE`.
     """
-    shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
-    total = sum(shares)
+    shares = np.sqrt(breaks[1:] - breaks[:-1])
     fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(least_share * count))
-    more = [1.0] * len(shares) if crowding is None else [more_elements(ratio) for ratio in crowding]
-    return np.array(
-        [
-            max(round(count * share / total), fewest) * longer
-            for share, longer in zip(shares, more, strict=True)
-        ]
-    ).astype(int)
+    counts: Array = np.maximum(np.rint(count * shares / shares.sum()), fewest)
+    counts *= [more_elements(ratio) for ratio in crowding or uncrowded(counts.size)]
+    return counts.astype(np.intp)
 
 
 @lru_cache(maxsize=128)

@@ -11,7 +11,9 @@ from rollnip.contact.coupled import (
     CoupledActiveSet,
     LinearSystem,
     next_states,
+    right_side,
     solve_states,
+    system_matrix,
 )
 from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States, unsolved
 
@@ -96,22 +98,11 @@ def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:
     numpy.linalg.LinAlgError
         where the surfaces are not pressed together.
     """
-    n, control = problem.x.size, problem.control
-    shears = n + np.arange(n if problem.friction > 0.0 else 0)
-    rows = np.arange(n + shears.size)
-    m = rows.size + 2
-    matrix, right = np.zeros((m, m)), np.zeros(m)
-    matrix[: m - 2, : m - 2] = problem.influence[np.ix_(rows, rows)]
-    matrix[:n, -2], matrix[shears, -1] = -1.0, problem.creep_length[: shears.size]
-    right[:n], right[shears] = problem.clearance, problem.creep_offset[: shears.size]
-    if control.load is not None:
-        matrix[-2, :n], right[-2] = problem.weights, -control.load
-    else:
-        matrix[-2, -2], right[-2] = 1.0, -(control.approach or 0.0)
-    if control.traction is not None and shears.size:
-        matrix[-1, shears], right[-1] = problem.weights, -control.traction
-    else:
-        matrix[-1, -1], right[-1] = 1.0, -(control.creepage or 0.0)
+    n, friction, control = problem.x.size, problem.friction, problem.control
+    nodes = np.arange(n)
+    stick = nodes if friction > 0.0 else nodes[:0]
+    matrix = system_matrix(problem, nodes, stick, np.zeros(n))
+    right = -right_side(problem, nodes, stick)
 
     # Sizes are estimated from a uniform pressure.
     depth = float(np.abs(problem.normal_pressure).sum(axis=1).max())
@@ -122,24 +113,19 @@ def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:
         peak = ((control.approach or 0.0) - float(problem.clearance.min())) / depth
     if not peak > 0.0:
         raise np.linalg.LinAlgError("nothing is pressed")
-    made = np.abs(problem.creep_pressure) + problem.friction * np.abs(problem.creep_shear)
+    made = np.abs(problem.creep_pressure) + friction * np.abs(problem.creep_shear)
     creepage = float(made.sum(axis=1).max() / problem.creep_length.max()) * peak or 1.0
-    approach = depth * peak
-    sizes = np.concatenate([np.full(m - 2, peak), [approach, creepage]])
-    scales = np.concatenate(
-        [
-            np.full(n, approach),
-            creepage * problem.creep_length[: shears.size],
-            [
-                weight * peak if control.load is not None else approach,
-                problem.friction * weight * peak
-                if control.traction is not None and shears.size
-                else creepage,
-            ],
-        ]
+    approach, load = depth * peak, weight * peak
+    has_traction = control.traction is not None and stick.size > 0
+    sizes, scales, start = (
+        np.full(right.size, peak),
+        np.full(right.size, approach),
+        np.zeros(right.size),
     )
-    start = np.concatenate([np.full(n, peak), np.zeros(shears.size), [approach, 0.0]])
-    frictions = np.full(shears.size, problem.friction)
-    return Inequalities(
-        matrix, right, np.arange(n), shears, shears - n, frictions, sizes, scales
-    ), start
+    sizes[-2:] = approach, creepage
+    scales[n:-2] = creepage * problem.creep_length[stick]
+    scales[-2] = load if control.load is not None else approach
+    scales[-1] = friction * load if has_traction else creepage
+    start[:n], start[-2] = peak, approach
+    frictions = np.full(stick.size, friction)
+    return Inequalities(matrix, right, nodes, n + stick, stick, frictions, sizes, scales), start

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, exp, inf, pi, sqrt
+from math import copysign, exp, inf, pi
 
 import numpy as np
 
-from rollnip.contact.edge_exponents import turned_back
-from rollnip.contact.ends import RESPONSE, determinant, outward_move
+from rollnip.contact.ends import outward_move, root_at, roots_beside
 from rollnip.contact.free_ends import Layout
 from rollnip.contact.problem import STICK, Array, ContactState, State
 
@@ -70,14 +69,14 @@ def slip_beside(
     kappa : of the edge, see `edge_exponents`.
     leads : whether it is the leading edge of its piece of the contact.
     """
-    step = -1 if leads else 1
-    beside = [_turned_back_beside(x, state, edge, apart * step, kappa) for apart in (1, 2)]
+    inwards = -1 if leads else 1
+    beside = [roots_beside(x, state, edge, apart * inwards, kappa) for apart in (1, 2)]
     for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
         near, far = (
             -outward_move(
-                distance, [friction * one.real - sign * one.imag for one in back], smooth=leads
+                distance, [friction * one.real - sign * one.imag for one in roots], smooth=leads
             )
-            for distance, back in beside
+            for distance, roots in beside
         )
         if abs(far - near) < near < inf:
             return near, slip
@@ -124,9 +123,8 @@ def slip_by_turning(
     if not kappa.imag:
         return None
     inwards = -1 if leads else 1
-    distance, back = _turned_back_beside(x, state, edge, inwards, kappa)
-    right = [value / sqrt(d) for value, d in zip(back, distance, strict=True)]
-    root = determinant(right, distance, RESPONSE) / determinant((1.0,) * 3, distance, RESPONSE)
+    distance, roots = roots_beside(x, state, edge, inwards, kappa)
+    root = root_at(distance, roots)
     # mu p - sign q is the real part of (mu + i sign)(p + i q): it is 0 where that has turned to i.
     side = copysign(1.0, kappa.imag)
     turn, slip = min(
@@ -138,13 +136,3 @@ def slip_by_turning(
     sticks = state.states[edge + inwards :: inwards] == STICK
     length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
     return TurningSlip(reach, slip, abs(root), leads) if reach < length else None
-
-
-def _turned_back_beside(
-    x: Array, state: ContactState, edge: int, step: int, kappa: complex
-) -> tuple[list[float], Sequence[complex]]:
-    """Return the distances of three nodes from an edge, ``step`` apart, and p + i q turned back."""
-    beside = edge + step * np.array([1, 2, 3])
-    distance = np.abs(x[beside] - x[edge]).tolist()
-    tractions = (state.pressure[beside] + 1j * state.shear[beside]).tolist()
-    return distance, turned_back(tractions, distance, kappa)

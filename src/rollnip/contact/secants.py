@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.linalg import lapack
 
 from rollnip.contact.free_ends import Layout
-from rollnip.contact.problem import Array, Mask
+from rollnip.contact.problem import Array
 
 _LONGEST_STEP = 3.0  # longest step of an end, over the longest proposed move, or the last step
 _TINY = float(np.finfo(float).tiny)
@@ -44,7 +45,7 @@ class Secants:
     _longest: float = 0.0
     _unit: Array | None = None
     _bracket: tuple[Array, Array] | None = None
-    _vanishing: Mask | None = None
+    _vanishing: set[int] = field(default_factory=set)
 
     def forget(self) -> None:
         """Forget the last mesh, as its moves do not compare with those on a different mesh.
@@ -70,29 +71,25 @@ class Secants:
             secant between the two may be used.
         """
         moves = self._moves(layout, proposed, singular)
-        given = ~np.isfinite(moves)
-        lost = np.clip(
-            layout.stepped_towards(proposed).breaks - layout.breaks, -self.reach, self.reach
-        )
-        steps = np.where(given, lost, 0.0)
-        self.reach *= 2.0 if given.any() else 1.0
-        jacobian = self._updated_jacobian(layout.breaks, moves)
-        free = ~given
-        if free.any():
-            wanted = moves[free] + jacobian[np.ix_(free, given)] @ steps[given]
-            try:
-                steps[free] = -np.linalg.solve(jacobian[np.ix_(free, free)], wanted)
-            except np.linalg.LinAlgError:
-                steps[free] = moves[free]
-            longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
-            if self._unit is not None and self.last is not None:
-                longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
-            largest = max(float(np.max(np.abs(steps[free]))), _TINY)
-            steps[free] *= min(1.0, longest / largest)
+        jacobian, free = self._updated_jacobian(layout.breaks, moves), np.isfinite(moves)
+        steps = moves.copy()
+        if not free.all():
+            lost = layout.stepped_towards(proposed).breaks - layout.breaks
+            steps[~free] = lost[~free].clip(-self.reach, self.reach)
+            self.reach *= 2.0
+        # The equations of these ends are that they move so.
+        system = np.where(free[:, None], -jacobian, np.eye(moves.size))
+        _, _, solved, info = lapack.dgesv(system, steps)
+        steps = solved if info == 0 else steps
+        largest = np.abs(steps[free]).max(initial=_TINY)
+        longest = _LONGEST_STEP * np.abs(moves[free]).max(initial=self._longest)
+        if self._unit is not None and self.last is not None:
+            longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
+        steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if only_ends_move else None
         limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
         places = self._bracketed(layout.breaks, layout.breaks + moves, limited.breaks)
-        self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
+        self._longest = float(np.abs(places - layout.breaks)[free].max(initial=0.0))
         return Layout(places, layout.states)
 
     def _moves(self, layout: Layout, proposed: Layout, singular: Array | None) -> Array:
@@ -111,8 +108,8 @@ class Secants:
         if self.last is not None:
             step = breaks - self.last[0]
             known = np.isfinite(moves) & np.isfinite(self.last[1])
-            missed = np.zeros(moves.size)
-            missed[known] = moves[known] - self.last[1][known] - self.jacobian[known] @ step
+            change = np.where(known, moves, 0.0) - np.where(known, self.last[1], 0.0)
+            missed = change - np.where(known, self.jacobian @ step, 0.0)
             self.jacobian = self.jacobian + np.outer(missed, step) / max(float(step @ step), _TINY)
         return self.jacobian
 
@@ -122,25 +119,20 @@ class Secants:
         The edges of a single zone always stay between the last places that called for either
         direction.
         """
-        if self._bracket is None:
-            self._bracket = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
-        low, high = self._bracket
+        low, high = self._bracket or (-np.inf, np.inf)
         low = np.where(proposed > breaks, breaks, np.where(low < breaks, low, -np.inf))
         high = np.where(proposed < breaks, breaks, np.where(high > breaks, high, np.inf))
         self._bracket = low, high
         # Bracketing holds only for these: there is no transition to move them.
         is_alone = breaks.size == 2 and self._unit is None
         lost = np.isinf(proposed) | ((limited <= low) | (limited >= high) if is_alone else False)
-        out = limited.copy()
         between = lost & np.isfinite(low) & np.isfinite(high)
-        out[between] = 0.5 * (low[between] + high[between])
         away = lost & ~between & np.isfinite(proposed)
-        out[away] = proposed[away]
+        out = np.where(away, proposed, limited)
+        out[between] = 0.5 * (low[between] + high[between])
         return out
 
-    def vanishing(self, layout: Layout, proposed: Layout) -> Mask:
-        """Return the zones to which two successive solutions leave no length, (m,)."""
-        now = layout.vanishing(proposed)
-        again = np.zeros_like(now) if self._vanishing is None else now & self._vanishing
-        self._vanishing = now
-        return again
+    def vanishing(self, layout: Layout, proposed: Layout) -> list[int]:
+        """Return the numbers of the zones to which two successive solutions leave no length."""
+        before, self._vanishing = self._vanishing, layout.vanishing(proposed)
+        return sorted(before & self._vanishing)

@@ -3,9 +3,10 @@
 `strip` is the mesh of a covering, `numbering` its unknowns in banded storage, `columns` where its
 columns lie. `equilibrium` solves it by Newton's method under tractions that follow the surface
 (`follower_load`, `nodal_tractions`); `memory` and `relaxing_stress` add viscoelastic stresses,
-`state` holds states and tangents. `response` turns equilibria into the correction of the linear
-displacement that a contact is solved with; `_spline` and `_low_pass` make it a smooth function of
-the place. `stress` evaluates the fields inside, `power` the heat.
+`state` holds states and tangents, whose systems `conjugate_residuals` solves where layers are
+viscoelastic. `response` turns equilibria into the correction of the linear displacement that a
+contact is solved with; `_spline` and `_low_pass` make it a smooth function of the place. `stress`
+evaluates the fields inside, `power` the heat.
 """
 
 from rollnip.finite._spline import Spline

@@ -48,7 +48,7 @@ EQUILIBRIUM_TOLERANCE = 1e-5
 # Equilibria that converge take five steps at most (485 of the examples and 100 random nips).
 _MOST_STEPS = 15
 _LEAST_VOLUME = 0.1  # smallest J that a step may lead to
-_STEP_GMRES_TOLERANCE = 1e-3  # relative residual of an iterative linear solution within a step
+_STEP_RESIDUAL = 1e-3  # relative residual of an iterative linear solution within a step
 _LEAST_PART = 1e-2  # smallest part of a Newton step that is tried
 _CONTRACTION = 0.3  # ratio of successive steps up to which a tangent is used again
 # Ratio expected of the step after the first one, if both use the tangent at the start, over the
@@ -211,10 +211,10 @@ class Body:
         stress[1] -= c * y_s
         stress[2] -= c * x_z
         stress[3] += c * x_s
+        if fields.relaxing is not None:
+            stress += fields.relaxing.nominal
         force = self.strip.forces(stress)
         force += (fields.pressure_step[:, None] @ volume_derivatives)[:, 0]
-        if fields.relaxing is not None:
-            force += fields.relaxing.force
         return self.strip.assembled(force)
 
     @cached_property
@@ -355,7 +355,7 @@ class Body:
             if tangent is None:
                 tangent = self._tangent(fields, load.stiffness)
             residual = load.nodal_forces - self._force(fields, tangent.volume_derivatives)
-            step = tangent.solve(residual, _STEP_GMRES_TOLERANCE)
+            step = tangent.solve(residual, _STEP_RESIDUAL)
             local = self.strip.local(step)
             part, deformation = self._admissible_part(deformation, local)
             change = part * (fields.pressure_step + tangent.pressure_changes(local))
@@ -371,7 +371,7 @@ class Body:
             )
             measure = sqrt(abs(float(residual @ step)) / load_work)
             first = max(first, measure)
-            left = min(max(contraction, _STEP_GMRES_TOLERANCE), 1.0)
+            left = min(max(contraction, _STEP_RESIDUAL), 1.0)
             error = measure if is_first and not is_new else measure * left
             if part == 1.0 and error <= max(tolerance, step_tolerance * first):
                 return state

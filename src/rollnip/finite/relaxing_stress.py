@@ -152,17 +152,14 @@ class RelaxingStress:
         return held * slope, self.memory.own_weights * lame * slope**2 + held * bend
 
     @property
-    def force(self) -> Array:
-        """Nodal forces of the relaxing part of T, (elements, 18)."""
-        held = self.stress[..., :3] * self.memory.strip.volumes[..., None]
-        x_s, x_z, y_s, y_z = self.deformation
-        by_s, by_z = self.memory.strip.shape_derivatives.transpose(0, 1, 3, 2)
-        along, across, mixed = held[..., 0], held[..., 1], held[..., 2]
-        out = np.empty((held.shape[0], 2, 9))
-        for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
-            out[:, i] = (by_s @ (f_s * along + f_z * mixed)[..., None])[..., 0]
-            out[:, i] += (by_z @ (f_z * across + f_s * mixed)[..., None])[..., 0]
-        return out.reshape(-1, 18)
+    def nominal(self) -> Array:
+        """Nominal stress of the relaxing part of T, F T, (4, elements, 9)."""
+        along, across, mixed = np.ascontiguousarray(np.moveaxis(self.stress[..., :3], -1, 0))
+        out = np.empty(self.deformation.shape)
+        for i in (0, 2):
+            f_s, f_z = self.deformation[i : i + 2]
+            out[i], out[i + 1] = f_s * along + f_z * mixed, f_s * mixed + f_z * across
+        return out
 
     @property
     def geometric_stiffness(self) -> Array:
@@ -232,18 +229,16 @@ class RelaxingTangent:
         the result, (unknowns, 4 band + 1), has twice as many above it.
         """
         strip = self.memory.strip
-        band, count, ahead = (
-            strip.band,
-            self.strain_derivative.shape[0],
-            strip.depths.row_layers.size,
-        )
+        band, ahead = strip.band, strip.depths.row_layers.size
         out = np.zeros((strip.size, 4 * band + 1))
         out[:, band:] = stored
         entries = []
         for share, step in zip(self.memory.near_weights, (0, ahead), strict=True):
-            rate = np.roll(self.stress_derivative, -step, axis=0).reshape(count, 3, -1)
-            made = self.strain_derivative.transpose(0, 2, 1) @ (share @ rate).reshape(count, -1, 18)
-            entries.append(made[: count - step].ravel())
+            rate = self.stress_derivative[step:]
+            count = rate.shape[0]
+            held = share[:count] @ rate.reshape(count, 3, -1)
+            by = self.strain_derivative[:count].transpose(0, 2, 1)
+            entries.append((by @ held.reshape(rate.shape)).ravel())
         places = near_slots(strip.columns, ahead)
         added = np.bincount(places, np.concatenate(entries), minlength=out.size + 1)
         out += added[: out.size].reshape(out.shape)

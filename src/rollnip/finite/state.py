@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.conjugate_residuals import Directions
 from rollnip.finite.relaxing_stress import RelaxingStress, RelaxingTangent
 from rollnip.finite.strip import Array, Indices, Strip, quadratics
 from rollnip.materials import Slopes
-
-_KRYLOV_VECTORS = 60  # before GMRES restarts
-_MOST_GMRES_CYCLES = 3
 
 
 class NoEquilibriumError(ArithmeticError):
@@ -49,7 +48,7 @@ class Tangent:
 
     With viscoelastic layers the stress in a column depends on all columns upstream. The factors
     hold the contributions of each element and of the next one in its row; the rest is applied
-    without being stored, in GMRES with the factors as preconditioner.
+    without being stored, in an iterative solution with the factors as preconditioner.
 
     Attributes
     ----------
@@ -79,30 +78,31 @@ class Tangent:
         first = self._by_factors(forces)
         if self.relaxing is None:
             return first
-        from scipy.sparse.linalg import LinearOperator, gmres  # nothing elastic needs it
-
-        relaxing, size = self.relaxing, forces.size
-
-        def applied(displacement: Array) -> Array:
-            return displacement + self._by_factors(relaxing.far_forces(displacement))
-
-        whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
-        out, failed = gmres(
-            whole,
-            first,
-            x0=first,
-            rtol=tolerance,
-            atol=0.0,
-            restart=_KRYLOV_VECTORS,
-            maxiter=_MOST_GMRES_CYCLES,
-        )
-        if failed != 0 or not np.all(np.isfinite(out)):
+        # Volumes are right in the solution by the factors, and what these leave out does not change
+        # them. A start from zero would leave a share of that solution, and pressures to answer it.
+        goal = tolerance * float(np.linalg.norm(first))
+        out = self._directions.solve(self._whole, first, -self._left_out(first), goal)
+        if out is None:
             raise NoEquilibriumError
-        return np.asarray(out)
+        return out
+
+    @cached_property
+    def _directions(self) -> Directions:
+        """Directions of the iterative solutions so far."""
+        return Directions(self.factors.shape[1])
+
+    def _whole(self, displacement: Array) -> Array:
+        """Return the preconditioned matrix times displacements."""
+        return displacement + self._left_out(displacement)
+
+    def _left_out(self, displacement: Array) -> Array:
+        """Return the displacements by the forces that the factors leave out."""
+        assert self.relaxing is not None
+        return self._by_factors(self.relaxing.far_forces(displacement))
 
     def pressure_changes(self, local: Array) -> Array:
         """Return the changes of the pressures (elements, 3) by displacements (elements, 18)."""
-        made = (self.pressure_derivatives @ local[..., None])[..., 0]
+        made = np.einsum("eij,ej->ei", self.pressure_derivatives, local)
         if self.relaxing is not None:
             made += self.relaxing.pressure_changes(local)
         return np.asarray(made)

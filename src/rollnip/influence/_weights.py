@@ -132,7 +132,7 @@ def inverse_transform(
     per_octave: tuple[int, int],
     nodes: int,
 ) -> Array:
-    """Return F_0, F_1 and F_2 at x_j and at -x_j, (3, points, compliances, 2).
+    """Return F_0, F_1 and F_2 at x_j and at -x_j, (3, compliances, 2, points).
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def inverse_transform(
     even, odd = weights.even.sums(growth.real), weights.odd.sums(growth.imag)
     # The constant of a half-space includes wave numbers above 1/mm, whatever w_0 is.
     even += (octaves[0] * log(2.0)) * growth[:, -2, None, None].real
-    return np.stack([even - odd, even + odd], axis=-1).transpose(1, 2, 0, 3)
+    return np.stack([even - odd, even + odd], axis=2).swapaxes(0, 1)
 
 
 class _PanelWeights(NamedTuple):

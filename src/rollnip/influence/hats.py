@@ -26,11 +26,8 @@ def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
     """
     lengths = nodes[1:] - nodes[:-1]
     steps = _under_slopes(kernel, x, nodes, kernel.reach_of_differences * lengths)
-    steps /= lengths.reshape(-1, *[1] * (steps.ndim - 1))
-    hats = np.moveaxis(steps[:-1] - steps[1:], 0, 1)
-    if kernel.coefficients.ndim == 3:
-        hats = np.moveaxis(hats, -1, 0)[: kernel.count]
-    return np.ascontiguousarray(hats)
+    steps /= lengths[:, None]
+    return np.ascontiguousarray((steps[..., :-1, :] - steps[..., 1:, :]).swapaxes(-1, -2))
 
 
 def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
@@ -38,15 +35,18 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
     A kernel with channels gives (channels, m, N-1).
     """
-    return _kinks(kernel.integral(x[:, None] - nodes[None, :]), nodes, kernel.count)
+    return np.diff(np.diff(kernel.integral(x[:, None] - nodes)) / np.diff(nodes))
 
 
-def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array) -> Array:
+def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array | None) -> Array:
     """Return the displacement at ``x`` (m,) under tractions (N-1, s) at nodes[1:-1], (m, s) [mm].
 
     The s columns are independent sets of tractions. The result is `displacement_matrix` times the
-    tractions, without forming the matrix. A kernel with channels gives (channels, m, s).
+    tractions, without forming the matrix; where there are none, it is that matrix. A kernel with
+    channels gives (channels, m, s).
     """
+    if tractions is None:
+        return displacement_matrix(kernel, x, nodes)
     lengths = nodes[1:] - nodes[:-1]
     slopes = _steps(tractions) / lengths[:, None]
     furthest = kernel.reach_of_differences * lengths
@@ -56,9 +56,8 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     parts = _steps(slopes) if is_near else slopes
     # In blocks, whose values fit the processor's cache. Where each set of tractions has few nonzero
     # neighbours, a block needs a few of the columns only.
-    channels = kernel.coefficients[0, 0].size
-    out = np.zeros((slopes.shape[1], x.size * channels))
-    block = max(2**15 // out.shape[1], 1)
+    out = np.zeros((*kernel.coefficients.shape[1:-1], x.size, slopes.shape[1]))
+    block = max(2**15 // (x.size * kernel.count), 1)
     for start in range(0, len(parts), block):
         rows = slice(start, start + block)
         sets = np.flatnonzero(np.any(parts[rows], axis=0))
@@ -69,9 +68,8 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
             else:
                 here = nodes[start : start + block + 1]
                 values = _under_slopes(kernel, x, here, furthest[rows])
-            out[columns] += parts[rows, columns].T @ values.reshape(-1, out.shape[1])
-    made = out.reshape(-1, x.size, channels).T[: kernel.count]
-    return np.ascontiguousarray(made[0] if kernel.coefficients.ndim == 2 else made)
+            out[..., columns] += values.swapaxes(-1, -2) @ parts[rows, columns]
+    return out
 
 
 def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Array:
@@ -81,10 +79,10 @@ def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Ar
     of the single one over it. For places farther away than ``furthest`` (N,), two Gauss points of
     the single integral are used instead.
 
-    For nodes (N+1,) the result is (N, m); a kernel with channels gives (N, m, channels).
+    For nodes (N+1,) the result is (N, m); a kernel with channels gives (channels, N, m).
     """
     values = kernel.double_integral(x - nodes[:, None])
-    out = values[:-1] - values[1:]
+    out = values[..., :-1, :] - values[..., 1:, :]
     if _reach(x, nodes) > furthest.min():
         lengths = nodes[1:] - nodes[:-1]
         distance = x - (nodes[:-1] + 0.5 * lengths)[:, None]
@@ -92,7 +90,7 @@ def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Ar
         length, middle = lengths[element], distance[element, place]
         apart = length / sqrt(12.0)
         mean = 0.5 * (kernel.integral(middle - apart) + kernel.integral(middle + apart))
-        out[element, place] = mean * length.reshape(-1, *[1] * (mean.ndim - 1))
+        out[..., element, place] = mean * length
     return out
 
 
@@ -111,25 +109,3 @@ def _reach(x: Array, nodes: Array) -> float:
 def load_weights(nodes: Array) -> Array:
     """Return the load of each hat, int hat dx, (N-1,) [mm]."""
     return 0.5 * (nodes[2:] - nodes[:-2])
-
-
-def _kinks(values: Array, nodes: Array, count: int) -> Array:
-    """Return the values per hat from values at the nodes (m, N+1, ...), as three changes of slope.
-
-    A last axis of channels becomes the first axis, of length ``count``.
-    """
-    channels = values[0, 0].size
-    inverse = np.append(1.0 / np.diff(nodes), 0.0)
-    # Taking all rows as one long row is three times faster than row by row; the differences from
-    # the end of one row to the start of the next are dropped at the end.
-    steps = np.zeros(values.shape)
-    _differences(values.reshape(-1), channels, steps.reshape(-1))
-    steps.reshape(values.shape[0], -1)[:] *= np.repeat(inverse, channels)
-    _differences(steps.reshape(-1), channels, steps.reshape(-1))
-    hats = steps[:, :-2]
-    return np.ascontiguousarray(hats if values.ndim == 2 else np.moveaxis(hats, -1, 0)[:count])
-
-
-def _differences(row: Array, distance: int, out: Array) -> None:
-    """Write the differences of values ``distance`` apart into the start of ``out``."""
-    np.subtract(row[distance:], row[:-distance], out=out[:-distance])

@@ -96,53 +96,51 @@ class Kernel:
     analytic in ln|x| although G is singular at 0, so that no singular part has to be split off.
 
     A kernel may have several channels (the influence functions of one surface), which are evaluated
-    together: results have the shape of x, then an axis of channels. Three channels are padded with
-    zeros to four, in results too, because numpy fetches 32 bytes at a time several times faster
-    than 24.
+    together: results have an axis of channels, then the shape of x.
 
     Attributes
     ----------
     points_per_octave, first :
         the grid is |x| = 2^((first + j)/points_per_octave).
     coefficients :
-        (6, 2 cells) or (6, 2 cells, channels), with 2 in place of 6 in tables of half-spaces:
+        (6, 2 cells) or (6, channels, 2 cells), with 2 in place of 6 in tables of half-spaces:
         coefficients of polynomials in the fraction of a cell, counted from its end nearer to 0.
         Cells are in the order of x, so that those of x < 0 precede those of x > 0. On either side
         the first and the last cell extrapolate linearly in ln|x|, below and beyond the grid.
-    count :
-        number of channels, without the padding.
     """
 
     points_per_octave: int
     first: int
     coefficients: Array
-    count: int = 1
 
     @classmethod
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
         """Return one kernel with the channels of several kernels on the same grid, in order."""
-        count = sum(kernel.count for kernel in kernels)
-        first = kernels[0]
-        terms, cells = max(kernel.coefficients.shape[:2] for kernel in kernels)
-        out = np.zeros((terms, cells, _filled_up(count)))
+        first, cells = kernels[0], kernels[0].coefficients.shape[-1]
+        terms = max(len(kernel.coefficients) for kernel in kernels)
+        out = np.zeros((terms, sum(kernel.count for kernel in kernels), cells))
         start = 0
         for kernel in kernels:
-            stop = start + kernel.count
-            part = kernel.coefficients.reshape(-1, cells, kernel.coefficients[0, 0].size)
-            out[: len(part), :, start:stop] = part[:, :, : kernel.count]
-            start = stop
-        return cls(first.points_per_octave, first.first, out, count)
+            part = kernel.coefficients.reshape(-1, kernel.count, cells)
+            out[: len(part), start : start + kernel.count] = part
+            start += kernel.count
+        return cls(first.points_per_octave, first.first, out)
 
     def channel(self, number: int) -> Kernel:
         """Return one channel as a kernel of its own."""
         if self.coefficients.ndim == 2:
             return self
-        return Kernel(self.points_per_octave, self.first, self.coefficients[:, :, number])
+        return Kernel(self.points_per_octave, self.first, self.coefficients[:, number])
+
+    @property
+    def count(self) -> int:
+        """Number of channels."""
+        return self.coefficients[0, ..., 0].size
 
     @property
     def reach(self) -> float:
         """Largest |x| of the table [mm]."""
-        cells = self.coefficients.shape[1] // 2 - 2
+        cells = self.coefficients.shape[-1] // 2 - 2
         return float(2.0 ** ((self.first + cells) / self.points_per_octave))
 
     @cached_property
@@ -161,23 +159,23 @@ class Kernel:
         if largest == 0.0:
             return inf
         eps, per_log = float(np.finfo(float).eps), self.points_per_octave / log(2.0)
-        nearest = float(np.abs(self.coefficients[1, self.coefficients.shape[1] // 2]).max())
+        nearest = float(np.abs(self.coefficients[1, ..., self.coefficients.shape[-1] // 2]).max())
         noise = cbrt(eps) * per_log * nearest / largest
         return max(sqrt(2.0 * noise / eps), float((1080.0 * eps) ** -0.2))
 
     def double_integral(self, x: Array) -> Array:
-        """Return int_0^x int_0^t G(s) ds dt, of the shape of ``x`` [mm] (then channels)."""
+        """Return int_0^x int_0^t G(s) ds dt, ([channels,] shape of ``x``) [mm]."""
         (value,) = self._jet(x, 0)
-        value *= _for_channels(0.5 * x * x, value)
+        value *= 0.5 * x * x
         return value
 
     def integral(self, x: Array) -> Array:
-        """Return int_0^x G(t) dt (H of theory section 4), of the shape of ``x`` [mm] (channels)."""
+        """Return int_0^x G(t) dt (H of theory section 4), ([channels,] shape of ``x``) [mm]."""
         value, slope = self._jet(x, 1)
-        return np.asarray(_for_channels(x, value) * (value + 0.5 * slope))
+        return np.asarray(x * (value + 0.5 * slope))
 
     def value(self, x: Array) -> Array:
-        """Return G(x) [mm/(N/mm)], of the shape of ``x`` [mm] (channels); may be singular at 0."""
+        """Return G(x) [mm/(N/mm)], ([channels,] shape of ``x`` [mm]); may be singular at 0."""
         value, slope, bend = self._jet(x, 2)
         return value + 1.5 * slope + 0.5 * bend
 
@@ -205,7 +203,7 @@ class Kernel:
 
     def _cells(self, x: Array) -> tuple[Indices, Array]:
         """Return the cell of each place, and the fraction of it between the place and 0."""
-        cells = self.coefficients.shape[1] // 2
+        cells = self.coefficients.shape[-1] // 2
         position = np.log2(x * x + np.finfo(float).tiny)
         position *= 0.5 * self.points_per_octave
         position -= self.first
@@ -224,8 +222,7 @@ class Kernel:
 def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> list[Array]:
     """Return polynomials of given cells, with derivatives up to ``order`` (the second halved)."""
     *lower, highest = coefficients
-    top = highest.take(cell, axis=0)
-    fraction = _for_channels(fraction, top)
+    top = highest.take(cell, axis=-1)
     jet = [top] + [np.zeros(top.shape) for _ in range(order)]
     value = np.empty(top.shape)
     for coefficient in reversed(lower):
@@ -233,24 +230,8 @@ def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> 
             jet[m] *= fraction
             jet[m] += jet[m - 1]
         jet[0] *= fraction
-        jet[0] += coefficient.take(cell, axis=0, out=value, mode="clip")
+        jet[0] += coefficient.take(cell, axis=-1, out=value, mode="clip")
     return jet
-
-
-def _for_channels(values: Array, like: Array) -> Array:
-    """Return the values at some places, each repeated for every channel of ``like``.
-
-    Repeating and multiplying two plain arrays is several times faster in numpy than a product that
-    broadcasts over a short axis of channels.
-    """
-    if values.ndim == like.ndim:
-        return values
-    return np.repeat(values, like.shape[-1]).reshape(like.shape)
-
-
-def _filled_up(channels: int) -> int:
-    """Return the number of channels of a table, with padding."""
-    return 4 if channels == 3 else channels
 
 
 Compliance = Callable[[Array], tuple[ComplexArray, ...]]
@@ -299,7 +280,7 @@ def tabulate(
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)
     first = window.points[0] * window.per_octave
-    return Kernel(window.per_octave, first, _hermite(means, window.per_octave), limit.size)
+    return Kernel(window.per_octave, first, _hermite(means, window.per_octave))
 
 
 def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
@@ -321,14 +302,14 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
     points = np.arange(window.points[0] * n, window.points[1] * n + 1)
     step = log(2.0) / n
     cells = points.size + 1
-    out = np.zeros((2, 2 * cells, _filled_up(even.size)))
+    out = np.empty((2, even.size, 2 * cells))
     # F_2 of ln|x| is ln|x| - 3/2, that of sign(x) is sign(x); outer cells extend beyond the grid.
     start = step * (points[0] - 1 + np.arange(cells)) + np.euler_gamma - 1.5
-    level, slope = np.multiply.outer(start, -even / np.pi), -step * even / np.pi
-    out[0, :cells, : even.size] = level[::-1] + 0.5 * odd
-    out[0, cells:, : even.size] = level - 0.5 * odd
-    out[1, :, : even.size] = slope
-    return Kernel(n, int(points[0]), out, even.size)
+    level = np.multiply.outer(-even / np.pi, start)
+    out[0, :, :cells] = level[:, ::-1] + 0.5 * odd[:, None]
+    out[0, :, cells:] = level - 0.5 * odd[:, None]
+    out[1] = (-step * even / np.pi)[:, None]
+    return Kernel(n, int(points[0]), out)
 
 
 def _sample(
@@ -349,7 +330,7 @@ def _sample(
 def _transform(
     samples: ComplexArray, low_limit: ComplexArray, window: Window, per_octave: int, nodes: int
 ) -> Array:
-    """Return F_r(+-x_j), (3, points, compliances, 2 sides)."""
+    """Return F_r(+-x_j), (3, compliances, 2 sides, points)."""
     w = sample_points(window.octaves, per_octave, nodes)
     rows = np.empty((low_limit.size, w.size + 1), dtype=complex)
     rows[:, :-2] = samples[:, :-1]
@@ -360,22 +341,21 @@ def _transform(
 
 
 def _hermite(means: Array, per_octave: int) -> Array:
-    """Return coefficients (6, 2 cells, channels) from F_0, F_1, F_2 (3, points, channels, 2)."""
+    """Return coefficients (6, channels, 2 cells) from F_0, F_1, F_2 (3, channels, 2, points)."""
     step = log(2.0) / per_octave
     f_0, f_1, f_2 = means
     slope = (2.0 * step) * (f_1 - f_2)
     half = step**2 * (f_0 - f_1) - step * slope  # of the second derivative
-    curl = np.diff(half, axis=0)
-    turn = np.diff(slope, axis=0) - 2.0 * half[:-1]
-    rise = np.diff(f_2, axis=0) - slope[:-1] - half[:-1]
-    out = np.zeros((6, f_2.shape[0] + 1, *f_2.shape[1:]))
-    out[0, 1:], out[1, 1:], out[2, 1:-1] = f_2, slope, half[:-1]
-    out[3, 1:-1] = 10.0 * rise - 4.0 * turn + curl
-    out[4, 1:-1] = -15.0 * rise + 7.0 * turn - 2.0 * curl
-    out[5, 1:-1] = 6.0 * rise - 3.0 * turn + curl
+    near, bend = slope[..., :-1], half[..., :-1]
+    curl = half[..., 1:] - bend
+    turn = slope[..., 1:] - near - 2.0 * bend
+    rise = f_2[..., 1:] - f_2[..., :-1] - near - bend
+    out = np.zeros((6, *f_2.shape[:-1], f_2.shape[-1] + 1))
+    inner = out[..., 1:-1]
+    out[0, ..., 1:], out[1, ..., 1:], inner[2] = f_2, slope, bend
+    inner[3] = 10.0 * rise - 4.0 * turn + curl
+    inner[4] = -15.0 * rise + 7.0 * turn - 2.0 * curl
+    inner[5] = 6.0 * rise - 3.0 * turn + curl
     # Below the grid the fraction of the cell is 1 at the first point.
-    out[0, 0], out[1, 0] = f_2[0] - slope[0], slope[0]
-    cells, channels = out.shape[1:3]
-    sides = np.zeros((6, 2 * cells, _filled_up(channels)))
-    sides[:, :cells, :channels], sides[:, cells:, :channels] = out[:, ::-1, :, 1], out[..., 0]
-    return sides
+    out[0, ..., 0], out[1, ..., 0] = f_2[..., 0] - slope[..., 0], slope[..., 0]
+    return np.concatenate([out[:, :, 1, ::-1], out[:, :, 0]], axis=-1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isfinite, isnan, nan, sqrt
 
 import numpy as np
@@ -58,16 +58,16 @@ class SecondOrder:
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
         matrices = carry(old.fine, new.fine)
-        rates = np.array([self.creep_length, self.creep_offset]) / old.dx
+        rates = self.creep_length / old.dx, self.creep_offset / old.dx
         if matrices is not None:
             nodes, intervals = matrices
-            clearance, rates = nodes @ self.clearance, rates @ intervals.T
+            clearance = nodes @ self.clearance
+            length, offset = (intervals @ rate for rate in rates)
         else:
             clearance = np.interp(new.inner, old.inner, self.clearance)
             middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
-            rates = np.array([np.interp(places, middles, rate) for rate in rates])
-        length, offset = new.dx * rates
-        return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
+            length, offset = (np.interp(places, middles, rate) for rate in rates)
+        return SecondOrder(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
 
     def change(
         self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]
@@ -98,6 +98,7 @@ class SecondOrder:
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:
     """Return the contact problem of theory sections 5 and 6, linear in the tractions."""
+    tangential = nip.tangential
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
@@ -106,7 +107,12 @@ def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem
         creep_length=mesh.dx + second.creep_length,
         creep_offset=second.creep_offset,
         friction=nip.friction,
-        control=_control(nip, second),
+        control=Control(
+            load=nip.normal.load + second.lean if isinstance(nip.normal, LineLoad) else None,
+            approach=nip.normal.approach if isinstance(nip.normal, Approach) else None,
+            traction=tangential.traction if isinstance(tangential, Traction) else second.traction,
+            creepage=tangential.creepage if isinstance(tangential, Creepage) else None,
+        ),
     )
 
 
@@ -137,18 +143,6 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     if isinstance(nip.tangential, Torque):
         traction = _traction_for_torque(nip, geometry, mesh, state, u)
     return SecondOrder(clearance, length, offset, traction, lean)
-
-
-def _control(nip: Nip, second: SecondOrder) -> Control:
-    normal, tangential = nip.normal, nip.tangential
-    traction = tangential.traction if isinstance(tangential, Traction) else second.traction
-    creepage = tangential.creepage if isinstance(tangential, Creepage) else None
-    return Control(
-        load=normal.load + second.lean if isinstance(normal, LineLoad) else None,
-        approach=normal.approach if isinstance(normal, Approach) else None,
-        traction=traction,
-        creepage=creepage,
-    )
 
 
 def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
@@ -260,28 +254,10 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
 
-def stretches(
-    nip: Nip, geometry: Geometry, mesh: Mesh, u: Displacements, finer: Displacements, slips: Bools
-) -> tuple[Array, Array]:
-    """Return `stretch_excess` as solved, and with the short waves that were cut, (2, n) each [mm].
-
-    Both are over the intervals of the finer nodes[1:]. Only slip needs the second; without slip it
-    is the same as the first.
-
-    Parameters
-    ----------
-    u, finer : displacements at nodes[1:], and at the finer nodes[1:].
-    slips : (n,) whether the surfaces slip in each interval.
-    """
-    x = mesh.fine.nodes[1:]
-    excess, uncut = stretch_excess(x, nip, geometry, finer), mesh.uncut(u)
-    if uncut is u or not slips.any():
-        return excess, excess
-    return excess, stretch_excess(x, nip, geometry, mesh.finer(uncut))
-
-
-def pulls(dx: Array, shear: Array, both: tuple[Array, Array], slips: Bools) -> Array:
-    """Return int q lambda ds of the upper and the lower surface, (2,) [N/mm].
+def transmitted(
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements, slips: Bools
+) -> tuple[Array, Array, tuple[Array, Array]]:
+    """Return int q lambda ds of the upper and the lower surface, (2,) [N/mm], and what it is of.
 
     This is the power that the shear transmits, divided by the speed of that surface. Where surfaces
     slip, lambda includes the short waves cut from the correction, as these belong to the actual
@@ -289,12 +265,20 @@ def pulls(dx: Array, shear: Array, both: tuple[Array, Array], slips: Bools) -> A
 
     Parameters
     ----------
-    dx, shear : (n,) lengths of the intervals [mm], and the mean shear in them per ``dx`` [MPa].
-    both : see `stretches`.
-    slips : (n,) whether the surfaces slip in each interval.
+    u : displacements at nodes[1:].
+    slips : (n,) whether the surfaces slip in each interval of the finer nodes[1:].
+
+    Returns
+    -------
+    The two integrals; the mean shear in each of these intervals, per dx, (n,) [MPa]; and in each of
+    them `stretch_excess` as solved, and with the short waves, (2, n) each.
     """
-    excess, uncut = both
-    return np.asarray((dx + np.where(slips, uncut, excess)) @ shear)
+    x, finer, uncut = mesh.fine.nodes[1:], mesh.finer(u), mesh.uncut(u)
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
+    excess = stretch_excess(x, nip, geometry, finer)
+    whole = excess if uncut is u else stretch_excess(x, nip, geometry, mesh.finer(uncut))
+    pulls = (x[1:] - x[:-1] + np.where(slips, whole, excess)) @ shear
+    return pulls, shear, (excess, whole)
 
 
 def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
@@ -362,11 +346,9 @@ def _traction_for_torque(
     It is nan where the second-order terms have diverged; such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
-    x, finer = mesh.fine.nodes[1:], mesh.finer(u)
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
-    slips = slip_intervals(x, contact_zones(mesh.inner, state, nip.friction))
-    both = stretches(nip, geometry, mesh, u, finer, slips)
-    pull = float(pulls(x[1:] - x[:-1], shear, both, slips)[1])
+    zones = contact_zones(mesh.inner, state, nip.friction)
+    slips = slip_intervals(mesh.fine.nodes[1:], zones)
+    pull = float(transmitted(nip, geometry, mesh, state, u, slips)[0][1])
     if not isfinite(pull):
         return nan
     lost = loss_inside("lower", nip, geometry, mesh, state)

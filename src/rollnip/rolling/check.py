@@ -92,20 +92,15 @@ def _fields(
     if held is not None and held.stretch is not None:
         flat = Displacements(u.four - held.at(x).four)
     linear, beyond = stretch_parts(x, nip, geometry, kernels, flat, u)
+    upper, lower = surface_depths(x, nip, geometry, u)
     return PairFields(
         x=x,
         pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
-        gap=_gap(x, nip, geometry, u) - state.approach,
+        gap=upper + lower - state.approach,
         creep=creep_of(x[1:] - x[:-1], geometry, linear + beyond, state.creepage),
     )
-
-
-def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
-    """Return the gap between the deformed surfaces before the approach is subtracted [mm]."""
-    upper, lower = surface_depths(x, nip, geometry, u)
-    return upper + lower
 
 
 def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float) -> float:

@@ -6,6 +6,7 @@ dozen such nodes in a zone are as accurate as a hundred nodes with linear tracti
 
 from __future__ import annotations
 
+from functools import partial
 from math import inf, isnan, sqrt
 from typing import TypeGuard
 
@@ -19,7 +20,6 @@ from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
     RefinementLevel,
-    refinement_level,
     with_errors,
     with_secondary_errors,
 )
@@ -27,6 +27,7 @@ from rollnip.rolling.iterations import converge, with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
+from rollnip.rolling.secondary import secondary_figures
 from rollnip.rolling.surfaces import PairKernels
 
 _FIRST_COUNT = 18
@@ -110,7 +111,8 @@ def _refined(
             continue
         if is_repeated and history:
             history.pop()
-        history.append(refinement_level(nip, model, latest, count, state.layout.breaks))
+        make_secondary = partial(secondary_figures, nip, model.geometry, latest)
+        history.append(RefinementLevel(count, latest.figures, state.layout.breaks, make_secondary))
         best = latest = with_errors(nip, latest, history, state.end_error)
         ratio = error_ratio(nip, latest, model.tolerance)
         if largest(ratio, roughness) <= 1.0:

@@ -65,8 +65,10 @@ def _correct_creep_to_edges(fine: Subdivision, out: Array) -> None:
     n = len(out) // 2
     for edge, kappa in zip(fine.edges[1::2], fine.exponents[1::2], strict=True):
         node = edge - 1
-        rho = left_out_of_creep(kappa, fine.pieces) * out[n + node, n + node]
-        out[n + node, [node, n + node]] -= rho.imag, rho.real
+        creep = out[n + node]
+        rho = left_out_of_creep(kappa, fine.pieces) * creep[n + node]
+        creep[node] -= rho.imag
+        creep[n + node] -= rho.real
 
 
 def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
@@ -75,15 +77,14 @@ def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
     If D z acts, with z = p + i q at one node and D complex, the gap that it makes is the real part
     of (zz + i xz) D z, and its creep that of the change of (xz - i xx) D z.
     """
-    n = len(out) // 2
-    edges = _unlike_edges(fine)
-    zz, xz, xx = made[:, :, n : n + len(edges)] + 1j * made[:, :, n + len(edges) :]
-    gap, creep = (zz + 1j * xz)[:-1], np.diff(xz - 1j * xx, axis=0)
-    for column, (edge, _, inwards) in enumerate(edges):
-        node = edge + inwards
-        by_traction = np.concatenate([gap[:, column], creep[:, column]])
-        out[:, node] += by_traction.real
-        out[:, n + node] -= by_traction.imag
+    n, nodes = len(out) // 2, np.array([edge + inwards for edge, _, inwards in _unlike_edges(fine)])
+    if not nodes.size:
+        return
+    zz, xz, xx = made[:, :, n : n + nodes.size] + 1j * made[:, :, n + nodes.size :]
+    gap, shift = zz + 1j * xz, xz - 1j * xx
+    by_traction = np.concatenate([gap[:-1], shift[1:] - shift[:-1]])
+    out[:, nodes] += by_traction.real
+    out[:, n + nodes] -= by_traction.imag
 
 
 def _unlike_edges(fine: Subdivision) -> list[tuple[int, complex, int]]:

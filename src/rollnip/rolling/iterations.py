@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import Protocol
 
 from rollnip._largest import largest
-from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
+from rollnip.contact import (
+    ContactState,
+    ContactZone,
+    GivenStates,
+    Safeguarded,
+    States,
+    contact_zones,
+)
 from rollnip.contact.problem import MOST_ITERATIONS
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.changes import NEGLIGIBLE
@@ -19,31 +25,34 @@ from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
-
-class Method(Protocol):
-    """A solver of a contact problem that starts from given states."""
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution, or the last iterate with ``settled`` false."""
-        ...
+Method = GivenStates | Safeguarded
 
 
 def holding(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
-    """Return influence functions that hold the second order of the previous mesh; none at first.
+    """Return influence functions that hold the second order of a solution; none at first.
 
-    The second order is small and smooth, so a few updates are enough. The last mesh is checked with
-    its own.
+    Only if they model it. The second order is small and smooth, so a few updates are enough, from
+    mesh to mesh. The last mesh is checked with its own.
     """
-    return held_from(kernels, before if before is not None and before.settled else None)
-
-
-def held_from(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
-    """Return influence functions that hold the second order of a solution, if they model it."""
     if kernels.is_fixed:
         return kernels
-    if before is None:
+    if before is None or not before.settled:
         return replace(kernels, held=NO_SECOND_ORDER)
     return replace(kernels, held=before.mesh.second_fields(before.state))
+
+
+def own_second_order(
+    nip: Nip, geometry: Geometry, kernels: PairKernels, latest: MeshSolution
+) -> tuple[Mesh, SecondOrder, float]:
+    """Return the mesh of a solution that holds the second order of its own tractions.
+
+    With it come the second-order terms that follow, and their change from those of the solution,
+    see `change_of`.
+    """
+    own = replace(kernels, held=latest.mesh.second_fields(latest.state))
+    mesh = latest.mesh.holding(own)
+    second = second_order(nip, geometry, mesh, latest.state)
+    return mesh, second, change_of(second, latest.second, mesh, nip, latest.state)
 
 
 def solve_on_mesh(
@@ -142,11 +151,8 @@ def with_residual(
     tractions. The change of the second-order terms that this makes counts for `geometry_change`.
     """
     if not kernels.is_fixed:
-        kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))
-        mesh, state = latest.mesh.holding(kernels), latest.state
-        own = second_order(nip, model.geometry, mesh, state)
-        change = change_of(own, latest.second, mesh, nip, state)
-        change = largest(change, latest.geometry_change)
+        mesh, _, change = own_second_order(nip, model.geometry, kernels, latest)
+        kernels, change = mesh.kernels, largest(change, latest.geometry_change)
         latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
     shortest = shortest_zone(nip, model, latest.figures.nip_width)

@@ -193,12 +193,12 @@ class MeshSolution:
         """Nodes that carry tractions, (M-1,) [mm]."""
         return self.nodes[1:-1]
 
-    @property
+    @cached_property
     def pressure(self) -> Array:
         """Acting pressure at ``x``, see `Subdivision`, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.pressure)
 
-    @property
+    @cached_property
     def shear(self) -> Array:
         """Acting shear on the upper roller along +x at ``x``, see `Subdivision`, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.shear)

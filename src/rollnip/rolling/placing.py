@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import accumulate
 from math import inf, log10
 
 import numpy as np
@@ -18,11 +19,11 @@ from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.end_search import EndSearch, EndStep, ZoneSolver, state_at
+from rollnip.rolling.end_search import EndSearch, state_at
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_meshes import are_too_many
+from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -65,14 +66,14 @@ class Placing:
         most_meshes = self._most_meshes(start.layout)
         without_slip: SearchState | None = None
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
-            step = search.solve_mesh()
+            search.solve_mesh()
             # The figures show errors of ends only with the zones of the previous size.
-            same_zones = settles_figures and step.layout.is_like(start.layout)
-            is_placed = self._is_placed_by(step, zones_known=zones_known, same_zones=same_zones)
-            is_near = not zones_known and step.misplacement < NEAR_ENOUGH and step.is_quiet
+            same_zones = settles_figures and search.layout.is_like(start.layout)
+            is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
+            is_near = not zones_known and search.misplacement < NEAR_ENOUGH and search.is_quiet
             others = self.search.other_zones(
-                step.latest,
-                (step.layout, step.proposed),
+                search.latest,
+                (search.layout, search.proposed),
                 search.ends,
                 is_placed=is_placed,
                 is_near=is_near,
@@ -80,14 +81,14 @@ class Placing:
             other = search.untried(others)
             if other is not None:
                 if other.may_be_left_out:
-                    without_slip = search.result(step)
+                    without_slip = search.result()
                 search.change_zones(other, was_placed=is_placed)
             elif not is_placed:
-                search.move_ends(step)
-            elif self.search.has_tension(step.latest):
+                search.move_ends()
+            elif self.search.has_tension(search.latest):
                 break
             else:
-                return search.result(step)
+                return search.result()
         return without_slip
 
     def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
@@ -107,7 +108,8 @@ class Placing:
         for _ in range(2):
             layout = state.layout
             latest, proposed = self.solver.solve(state, shape)
-            is_placed = self._is_placed(layout, proposed, zones_known=True)
+            moved = proposed.distance(layout)
+            is_placed = self._are_ends_placed(layout, moved, zones_known=True)
             if (
                 not proposed.is_proper
                 or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
@@ -127,34 +129,30 @@ class Placing:
     @cached_property
     def search(self) -> ZoneSearch:
         """The search for other zones that a solution calls for."""
-        return ZoneSearch(self.nip, self.model, self.kernels)
+        return ZoneSearch(self.nip, self.model)
 
-    @property
-    def _judges_ends_by_figures(self) -> bool:
-        """Whether ends count as placed once the figures no longer change with them.
-
-        Without friction figures hardly depend on the ends; at finite strain corrections need exact
-        ends, whatever the figures do.
-        """
-        return self.nip.friction > 0.0 and self.model.geometry not in FINITE
-
-    def _is_placed_by(self, step: EndStep, *, zones_known: bool, same_zones: bool) -> bool:
+    def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
         """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
         ``same_zones``: whether figures can be compared with those of the previous size.
         """
-        layout, latest = step.layout, step.latest
-        by_figures = same_zones and self._judges_ends_by_figures
+        layout, latest = search.layout, search.latest
+        # Without friction figures hardly depend on the ends; at finite strain corrections need ends
+        # to be exact, whatever the figures do.
+        has_finite_strain = self.model.geometry in FINITE
+        by_figures = same_zones and self.nip.friction > 0.0 and not has_finite_strain
         return (
-            self._is_placed(layout, step.proposed, zones_known=zones_known, by_figures=by_figures)
-            and (step.proposed.is_proper and step.is_settled)
-            and not (by_figures and self._changes(latest, step.end_error))
+            self._are_ends_placed(
+                layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
+            )
+            and (search.proposed.is_proper and latest.settled and search.is_quiet)
+            and not (by_figures and self._changes(latest, search.end_error))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
-            and self.solver.meshes.resolves(layout, step.shape)
+            and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
         )
 
-    def _is_placed(
-        self, layout: Layout, proposed: Layout, *, zones_known: bool, by_figures: bool = False
+    def _are_ends_placed(
+        self, layout: Layout, misplacement: float, *, zones_known: bool, by_figures: bool = False
     ) -> bool:
         """Return whether the errors of the ends are small relative to the width of the contact.
 
@@ -165,11 +163,9 @@ class Placing:
         most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
         length = layout.width
         if zones_known and self.nip.friction == 0.0:
-            length = min(length, self.solver.meshes.boundary)
-        shortest = float(np.diff(layout.breaks).min())
-        return proposed.distance(layout) * layout.width <= min(
-            most * length, NEAR_ENOUGH * shortest
-        )
+            length = min(length, self.solver.boundary)
+        shortest = float(layout.lengths.min())
+        return misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
 
     def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.
@@ -187,16 +183,14 @@ class Placing:
         A stick zone that is too long by delta has a shear beyond the bound in its last element;
         under a stiff skin, where the slightest stretch causes shear, far beyond it.
         """
-        breaks = np.cumsum((0, *latest.mesh.fine.elements))[1:-1]
-        x = latest.mesh.inner
         over = np.abs(latest.shear) - self.nip.friction * np.maximum(latest.pressure, 0.0)
         least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
-        places = latest.x[over > least]
-        cell = np.searchsorted(x, places)
-        return bool(np.isin(cell, (breaks, breaks + 1)).any())
+        cells = set(latest.mesh.inner.searchsorted(latest.x[over > least]).tolist())
+        breaks = [*accumulate(latest.mesh.fine.elements)][:-1]
+        return any(end in cells or end + 1 in cells for end in breaks)
 
     def _most_meshes(self, layout: Layout) -> int:
-        crowding = self.solver.meshes.crowding(layout)
+        crowding = self.solver.crowding(layout)
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         strongest = min(map(min, crowding))
         most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh

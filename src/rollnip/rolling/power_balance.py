@@ -39,14 +39,11 @@ from rollnip.nip import Nip
 from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import (
     Bools,
-    arc_ratio,
     creep_of,
     loss_inside,
-    mean_shear,
     moment,
-    pulls,
     slip_intervals,
-    stretches,
+    transmitted,
 )
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.surfaces import Array
@@ -100,14 +97,12 @@ def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
     """Return the losses and the transmitted work of a solution."""
     mesh, state = found.mesh, found.state
     x, u = mesh.fine.nodes[1:], found.displacements
-    finer, dx = mesh.finer(u), x[1:] - x[:-1]
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
     inside = [slip_intervals(x, (zone,)) for zone in found.zones]  # none where surfaces stick
     slips = np.any(inside, axis=0)
-    both = stretches(nip, geometry, mesh, u, finer, slips)
-    pull_upper, pull_lower = pulls(dx, shear, both, slips).tolist()
+    pulls, shear, both = transmitted(nip, geometry, mesh, state, u, slips)
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
+        dx = x[1:] - x[:-1]
         works = [shear * creep_of(dx, geometry, excess, state.creepage) for excess in both]
         (smooth, _), (friction, reversed_slip) = (slip_losses(work, inside) for work in works)
         cut = abs(friction - smooth)
@@ -119,8 +114,8 @@ def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
         friction=friction,
         lost_upper=loss_inside("upper", nip, geometry, mesh, state),
         lost_lower=loss_inside("lower", nip, geometry, mesh, state),
-        pull_upper=pull_upper,
-        pull_lower=pull_lower,
+        pull_upper=float(pulls[0]),
+        pull_lower=float(pulls[1]),
         cut=cut,
         reversed_slip=reversed_slip,
         moment_upper=moments[0],

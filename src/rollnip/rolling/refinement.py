@@ -23,7 +23,7 @@ from rollnip.rolling.iterations import (
 from rollnip.rolling.mesh_solution import MeshSolution, has_grip
 from rollnip.rolling.placing import MOST_MESHES, Placing
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_meshes import are_too_many
+from rollnip.rolling.zone_solver import are_too_many
 
 BY_NODES = Safeguarded()
 """Solver that seeks the states of a contact problem node by node."""
@@ -158,7 +158,7 @@ def _solve_by_nodes(
         if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
-    mesh = placing.solver.meshes.around(around, count, holding(kernels, before))
+    mesh = placing.solver.around(around, count, holding(kernels, before))
     second, steps = first_guess(nip, mesh), 0
     if before is not None:
         second, steps = before.second.carried(before.mesh, mesh), before.steps
@@ -175,9 +175,7 @@ def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolutio
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
     if placing.kernels.is_fixed:
-        return before is not None or (
-            len(latest.zones) == 1 and placing.solver.meshes.boundary >= element
-        )
+        return before is not None or (len(latest.zones) == 1 and placing.solver.boundary >= element)
     if before is None or len(before.zones) != len(latest.zones):
         return False
     ends = np.array([(zone.start, zone.stop) for zone in latest.zones])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -15,21 +16,20 @@ from rollnip.contact import (
     State,
     States,
     contact_intervals,
-    next_slip,
     next_states,
     slipping_at_edges,
 )
 from rollnip.contact.features import runs
 from rollnip.contact.secants import Secants
-from rollnip.model import FINITE, Geometry, Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.lengths import creepage_by_slip, shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
-from rollnip.rolling.surfaces import Array, PairKernels
+from rollnip.rolling.surfaces import Array
 
-_STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
+_STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,6 @@ class ZoneSearch:
 
     nip: Nip
     model: Model
-    kernels: PairKernels
 
     def other_zones(
         self,
@@ -97,8 +96,8 @@ class ZoneSearch:
         """
         layout, proposed = zones
         keeps_stick = _keeps_stick(latest)
-        for number in np.flatnonzero(ends.vanishing(layout, proposed)):
-            fewer = layout.without(int(number), keeps_stick=keeps_stick)
+        for number in ends.vanishing(layout, proposed):
+            fewer = layout.without(number, keeps_stick=keeps_stick)
             if fewer is not None:
                 yield SearchState(fewer, latest)
         if not (is_placed or is_near):
@@ -106,7 +105,7 @@ class ZoneSearch:
         wanted = self.changed_states(latest, layout, checks_contact=is_placed)
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
-            found = self.between_edges(latest, wanted, edges, self.model.geometry)
+            found = self.between_edges(latest, wanted, edges)
             # For the same zones there is nothing to change: their ends move anyway.
             if found is not None and not found.layout.is_like(layout):
                 yield found
@@ -136,14 +135,15 @@ class ZoneSearch:
         slack, given = self.model.tolerance, latest.state.states
         if self.model.geometry not in FINITE:
             slack *= NEGLIGIBLE
-        wanted = (next_states if checks_contact else next_slip)(latest.problem, latest.state, slack)
+        implied = partial(next_states, latest.problem, latest.state, slack)
+        wanted = implied(holds_contact=not checks_contact)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
         differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
-        return next_slip(latest.problem, latest.state, slack) if checks_contact else wanted
+        return implied(holds_contact=True) if checks_contact else wanted
 
     def has_tension(self, latest: MeshSolution) -> bool:
         """Return whether there is tension in the contact, outside the elements at edges."""
@@ -159,16 +159,15 @@ class ZoneSearch:
         return layout.with_gap(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
-        self, latest: MeshSolution, wanted: States | None, edges: Layout, geometry: Geometry
+        self, latest: MeshSolution, wanted: States, edges: Layout
     ) -> SearchState | None:
         """Return the stick and slip zones between given edges, by the active set.
 
-        It holds the contact set, and starts from the states ``wanted`` or, if None, those of the
-        solution. Return None where the nodes keep their states, or the zones have no layout.
+        It holds the contact set, and starts from the states ``wanted``. Return None where the nodes
+        keep the states of the solution, or the zones have no layout.
         """
-        given = latest.state.states
-        found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
-        if not found.settled or np.array_equal(found.states, given):
+        found = _STICK_AND_SLIP.solve(latest.problem, wanted)
+        if not found.settled or np.array_equal(found.states, latest.state.states):
             return None
         pieces = contact_intervals(edges.zones)
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
@@ -177,7 +176,7 @@ class ZoneSearch:
         layout = layout.without_short_zones(
             self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
         )
-        second = second_order(self.nip, geometry, latest.mesh, found)
+        second = second_order(self.nip, self.model.geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 

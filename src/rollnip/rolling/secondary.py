@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
-from rollnip.nip import Nip, Traction
-from rollnip.rolling.changes import errors_from_changes, shown_order
+from rollnip.nip import Nip
 from rollnip.rolling.mesh_solution import (
     LEAST_SIZE,
     MeshSolution,
@@ -18,11 +15,6 @@ from rollnip.rolling.mesh_solution import (
 )
 from rollnip.rolling.power_balance import Powers, powers
 from rollnip.rolling.surfaces import Array
-
-# Least error over the size, times the square of the number of elements: measured on random nips
-# against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
-# tests judge others).
-_LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
 def secondary_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> SecondaryFigures:
@@ -44,39 +36,6 @@ def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures
         contact_length=sum(stop - start for start, stop in contact_intervals(found.zones)),
         peak_pressure_x=place,
     )
-
-
-def secondary_errors(
-    nip: Nip, latest: MeshSolution, sizes: Sequence[tuple[int, SecondaryFigures]]
-) -> SecondaryFigures | None:
-    """Return the estimated errors of the secondary figures from their changes between meshes.
-
-    As for `Figures`, the last change is taken with the order that the meshes show, earlier changes
-    with second order, and no error is below the least that such meshes have on random nips.
-
-    Parameters
-    ----------
-    sizes : number of elements and figures of each mesh, coarsest first.
-
-    Returns
-    -------
-    None where there is a single mesh.
-    """
-    if len(sizes) < 2:
-        return None
-    counts = np.array([count for count, _ in sizes], dtype=float)
-    values = np.array([figures.array() for _, figures in sizes])
-    order = (
-        shown_order(counts, np.diff(values, axis=0))
-        if len(sizes) > 2
-        else np.ones(_LEAST_ERROR.size)
-    )
-    error = errors_from_changes(counts, values, order)
-    floor = _LEAST_ERROR * secondary_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
-    error = np.maximum(error, floor)
-    if not isinstance(nip.tangential, Traction):
-        error[1:3] = np.maximum(error[1:3], error[0])  # torques contain the traction
-    return SecondaryFigures(*error.tolist())
 
 
 def secondary_sizes(nip: Nip, latest: MeshSolution, figures: SecondaryFigures) -> Array:

@@ -17,7 +17,6 @@ from rollnip.influence import (
     SecondResponse,
     SurfaceKernels,
     covering_window,
-    displacement_matrix,
     displacement_under,
     is_ring,
     joint_kernel,
@@ -181,7 +180,7 @@ class Mesh:
         places, n = (nodes[1:], fine.nodes), nodes.size - 2
         per_traction, influence = np.empty((0, 0, 0)), np.empty((0, 0))
         if cls.is_bare and kernels.joint is not None:
-            made = surface_displacements(kernels.joint, *places, unit)
+            made = displacement_under(kernels.joint, *places, unit)
             influence = influence_matrix(fine, made, None)
         else:
             per_traction = pair_displacements(kernels, *places, unit)
@@ -234,20 +233,19 @@ class Mesh:
 
         ``pressure``: at nodes[1:-1] of the mesh [MPa].
         """
-        edges = np.array(self.fine.edges, dtype=int)
-        beside = edges + np.resize([1, -1], edges.size)
-        if np.any(beside == np.argmax(pressure)):
+        edges, highest = self.fine.edges, int(pressure.argmax())
+        if highest - 1 in edges[::2] or highest + 1 in edges[1::2]:
             return True
-        return bool(self.is_beside_edge[np.argmax(self.acting(pressure))])
+        return bool(self.is_beside_edge[self.acting(pressure).argmax()])
 
     @property
     def is_beside_edge(self) -> NDArray[np.bool_]:
         """Return which of the finer nodes[1:-1] lie at an edge or in the element inside it."""
-        x, inner, edges = self.fine.nodes[1:-1], self.inner, self.fine.edges
-        out = np.zeros(x.size, dtype=bool)
+        edges, pieces = self.fine.edges, self.fine.pieces
+        out = np.zeros(self.fine.nodes.size - 2, dtype=bool)
         for trailing, leading in zip(edges[::2], edges[1::2], strict=True):
-            out |= (x >= inner[trailing]) & (x < inner[trailing + 1])
-            out |= (x > inner[leading - 1]) & (x <= inner[leading])
+            out[pieces * trailing : pieces * (trailing + 1)] = True
+            out[pieces * (leading - 1) + 1 : pieces * leading + 1] = True
         return out
 
     def work(self, traction: Array, displacement: Array) -> float:
@@ -347,16 +345,9 @@ def pair_displacements(
     -------
     (6, m, s) by xx, zz, xz of the upper, then of the lower surface; 0 for a rigid one.
     """
-    made = surface_displacements(kernels.together, x, nodes, tractions)
+    made = displacement_under(kernels.together, x, nodes, tractions)
     if kernels.together.count == 6:
         return made
     six = np.zeros((6, *made.shape[1:]))
     six[slice(0 if kernels.upper else 3, 6 if kernels.lower else 3)] = made
     return six
-
-
-def surface_displacements(kernel: Kernel, x: Array, nodes: Array, tractions: Array | None) -> Array:
-    """Return the displacements by all channels, (channels, m, s), as `pair_displacements` does."""
-    if tractions is None:
-        return displacement_matrix(kernel, x, nodes)
-    return displacement_under(kernel, x, nodes, tractions)

@@ -60,8 +60,9 @@ def solve_by_iteration(
     """
     if skin_thickness(formulation.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
+    coarse = coarse_model(model)
     try:
-        iterate = _begun(formulation, coarse_model(model), kernels, half_width)
+        iterate = _begun(formulation, coarse, kernels, half_width, allowed=coarse.tolerance)
     except np.linalg.LinAlgError:
         return None
     for share in CUT_FACTORS:
@@ -78,13 +79,27 @@ def solve_by_iteration(
 
 
 def _begun(
-    formulation: Formulation[IterateT], model: Model, kernels: PairKernels, half_width: float
+    formulation: Formulation[IterateT],
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    *,
+    allowed: float = 0.0,
 ) -> IterateT:
-    """Return a first solution on a coarse mesh, without a previous one."""
-    search = formulation.search(model, kernels)
-    count = round(initial_elements(formulation, half_width, _COARSE))
+    """Return a solution on a coarse mesh, without a previous one.
+
+    ``allowed``: error of the zone ends, over the width, up to which the solution in linear geometry
+    will do: first corrections need no better one.
+    """
+    search, count = formulation.search(model, kernels), _elements(formulation, half_width)
     iterate = search.start(half_width, count)
+    if iterate.misplacement <= allowed:
+        return iterate
     return search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
+
+
+def _elements(formulation: Formulation[IterateT], half_width: float, size: float = _COARSE) -> int:
+    return round(initial_elements(formulation, half_width, size))
 
 
 @dataclass
@@ -106,25 +121,30 @@ class _Contact(Generic[IterateT]):
     refined: Refined[IterateT] | None = None
     restarts: int = 0
 
-    def solve(self, kernels: PairKernels, *, refine: bool) -> None:
-        """Solve with other corrections, starting from the last solution.
+    def solve(self, kernels: PairKernels, start: IterateT, *, refine: bool) -> None:
+        """Solve with other corrections.
 
-        Where its zones do not converge, the search is restarted. ``refine``: on finer and finer
-        meshes.
+        Where zones do not converge, the search is restarted.
+
+        Parameters
+        ----------
+        kernels : influence functions with the corrections.
+        start : the last solution, with lagged terms from about these corrections.
+        refine : on finer and finer meshes.
         """
-        found = self.formulation.with_corrections(self.iterate, kernels)
         if refine:
-            self._refine(kernels, found)
+            self._refine(kernels, start)
             return
-        model = coarse_model(self.model) if self.refined is None else self.model
-        size = _COARSE if self.refined is None else self.refined.count
-        half_width = 0.5 * found.zones.width
-        count = round(initial_elements(self.formulation, half_width, size))
+        if self.refined is None:
+            model, size, placed = coarse_model(self.model), _COARSE, FIRST_END_TOLERANCE
+        else:
+            model, size, placed = self.model, self.refined.count, END_TOLERANCE
+        count = _elements(self.formulation, 0.5 * start.zones.width, size)
         search = self.formulation.search(model, kernels)
-        found = search.settle_zones(found.zones, count, found, END_TOLERANCE)
+        found = search.settle_zones(start.zones, count, start, placed)
         if not found.settled and self.restarts < _MOST_RESTARTS:
-            start, stop = _edges(self.iterate)
-            found = _begun(self.formulation, model, kernels, 0.5 * (stop - start))
+            trailing, leading = _edges(self.iterate)
+            found = _begun(self.formulation, model, kernels, 0.5 * (leading - trailing))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
@@ -162,7 +182,7 @@ def _iterate_until_settled(
         begins = refined is None and is_whole and near <= NEARLY_CONVERGED
         if begins:
             past = AndersonMixer(places_by_the_edges(_edges(iterate)))
-        contact.solve(kernels, refine=begins)
+        contact.solve(kernels, own, refine=begins)
         if not contact.iterate.settled and contact.refined is not None:
             break
     if least.found is None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FAR = 9.0  # over the thickness: what decays is 1e-17 there, it falls as exp(-4.2 distance)
+FAR = 6.0  # over the thickness: what decays is 1e-12 there, it falls as exp(-4.2 distance)
 _PLACES = 400  # of a table, crowded at 0, where what is tabulated goes as t^2 log t
 DISTANCES = FAR * np.linspace(0.0, 1.0, _PLACES) ** 4
 """Distances over the thickness at which responses are tabulated."""

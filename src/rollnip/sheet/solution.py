@@ -260,9 +260,8 @@ class SheetSolution(SmoothSolution):
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, at least the uncertainty that the model's own order leaves."""
-        shares = shares_of_model(self.model.geometry, self.bends)
-        for name in ("creepage_upper", "creepage_lower"):
-            shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
+        sides, cut = self.refined.figures_by_side, self.final.cut
+        shares = shares_of_model(self.nip, self.model.geometry, sides, cut, bends=self.bends)
         least = shares * scales(self.nip, figures)
         sheet = self.nip.sheet
         if sheet is not None and sheet.bending is None and not self.bends:

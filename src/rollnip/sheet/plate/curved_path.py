@@ -52,9 +52,14 @@ class CurvedLoad:
     rotation: Array
 
     @classmethod
-    def of(cls, loads: PiecewiseLoads, places: Array) -> CurvedLoad:
-        """Return the load with its effect at given places."""
-        return cls(loads, places, *_deflection(loads, places))
+    def at_nodes(cls, loads: PiecewiseLoads) -> CurvedLoad:
+        """Return the load with its effect at its own nodes."""
+        x = loads.nodes
+        return cls(loads, x, *_deflection(loads, x, loads.tail_moments))
+
+    def at(self, places: Array) -> CurvedLoad:
+        """Return the same load with its effect at given places."""
+        return CurvedLoad(self.loads, places, *self.deflection_at(places))
 
     @property
     def total(self) -> float:
@@ -71,7 +76,7 @@ class CurvedLoad:
         at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
         if np.array_equal(self.places[at], x):
             return self.height[at], self.rotation[at]
-        return _deflection(self.loads, x)
+        return _deflection(self.loads, x, self.loads.tail_moments_at(x))
 
     def change_from(self, old: CurvedLoad, load: float) -> float:
         """Return the largest change of couple and force since an older load, over the line load."""
@@ -83,8 +88,8 @@ class CurvedLoad:
         return float(couple.max() + np.trapezoid(force, x)) / load
 
 
-def _deflection(loads: PiecewiseLoads, x: Array) -> tuple[Array, Array]:
-    height, slope, bend = loads.deflection(x, loads.tail_moments_at(x))
+def _deflection(loads: PiecewiseLoads, x: Array, tail_moments: Array) -> tuple[Array, Array]:
+    height, slope, bend = loads.deflection(x, tail_moments)
     return slope[:, 0] + height[:, 1], bend[:, 0] + slope[:, 1]
 
 
@@ -131,7 +136,7 @@ def curved_load(
         sheared += SIGNS[side] * values_at(mesh, state.shear[side], x)
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     lines = np.stack([slope * left_out, -slope * (sheared - rise)], axis=1)
-    return CurvedLoad.of(PiecewiseLoads.of_lines(x, lines, sheet, plate), x)
+    return CurvedLoad.at_nodes(PiecewiseLoads.of_lines(x, lines, sheet, plate))
 
 
 def tension_left_out(

@@ -17,10 +17,10 @@ from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.sheet.plate.complementarity import Edges, solve_complementarity
+from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
 from rollnip.sheet.plate.lagged_terms import initial_terms, lagged_terms
-from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
+from rollnip.sheet.plate.system import PlateProblem, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
 _ELEMENTS = 30  # least number for a mesh that extends beyond the contacts
@@ -50,14 +50,16 @@ class InitialZones:
         reach = _REACH * half_width
         for _ in range(_MOST_REACHES):
             problem = self._problem(PlateZones.sticking(reach), 0.0, _ELEMENTS)
-            around = (-half_width, half_width)
-            state = self._solve_complementarity(problem, initial_terms(problem), (around, around))
+            around, first = (-half_width, half_width), initial_terms(problem)
+            state, _ = solve_complementarity(problem, first, (around, around))
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
-        return self.closer(PlateZones.around(problem, state), None, count)
+        if isinstance(self.nip.tangential, Torque):  # the pressures tell which traction it takes
+            first = lagged_terms(problem, "linear", state)
+        return self.closer(PlateZones.around(problem, state), first, count)
 
-    def closer(self, zones: PlateZones, lagged: PlateTerms | None, count: int) -> PlateZones:
+    def closer(self, zones: PlateZones, lagged: PlateTerms, count: int) -> PlateZones:
         """Return more accurate zones from approximate ones, on meshes that crowd at their edges.
 
         Each mesh ends closer to the edges that the previous one found; where edges moved to the end
@@ -65,7 +67,7 @@ class InitialZones:
         where no roller is rigid. Where a mesh has no solution, the last zones are returned.
 
         ``lagged``: terms of a solution with approximately these zones, of which the traction, the
-        shear-borne load and the known tension are used; None: none is known.
+        shear-borne load and the known tension are used.
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
@@ -83,24 +85,18 @@ class InitialZones:
         return zones
 
     def _beyond(
-        self, zones: PlateZones, lagged: PlateTerms | None, elements: int, margin: float
+        self, zones: PlateZones, lagged: PlateTerms, elements: int, margin: float
     ) -> PlateZones:
         """Return the zones on meshes that end ``margin`` times the width beyond the edges."""
         problem = self._problem(zones, margin, elements)
-        first = initial_terms(problem)
-        if lagged is not None:
-            first = replace(first, traction=lagged.traction, lean=lagged.lean, known=lagged.known)
-        return PlateZones.around(problem, self._solve_complementarity(problem, first, zones.edges))
-
-    def _solve_complementarity(
-        self, problem: PlateProblem, lagged: PlateTerms, edges: Edges
-    ) -> PlateState:
-        """Return a solution with contact, stick and slip; a prescribed torque takes two solves."""
-        state, _ = solve_complementarity(problem, lagged, edges)
-        if isinstance(self.nip.tangential, Torque):
-            wanted = lagged_terms(problem, "linear", state).traction
-            state, _ = solve_complementarity(problem, replace(lagged, traction=wanted), edges)
-        return state
+        known = replace(
+            initial_terms(problem),
+            traction=lagged.traction,
+            lean=lagged.lean,
+            known=lagged.known,
+        )
+        state, _ = solve_complementarity(problem, known, zones.edges)
+        return PlateZones.around(problem, state)
 
     def _problem(self, zones: PlateZones, margin: float, count: int) -> PlateProblem:
         """Assemble the problem on meshes that end ``margin`` times the width beyond the edges.

@@ -17,7 +17,7 @@ from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
 from rollnip.sheet.iterate import SheetIterate
 from rollnip.sheet.lagged_terms import interpolated
-from rollnip.sheet.plate.curved_path import CurvedLoad, places_along
+from rollnip.sheet.plate.curved_path import places_along
 from rollnip.sheet.plate.interface import SIGNS
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
@@ -129,5 +129,5 @@ def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTer
         lagged,
         clearance=(upper[0], lower[0]),
         offsets=(upper[1], lower[1]),
-        curved=curved and CurvedLoad.of(curved.loads, places_along(problem)),
+        curved=curved and curved.at(places_along(problem)),
     )

@@ -61,13 +61,14 @@ def lagged_terms(
     clearance, offsets, leans = [], [], []
     old = None if before is None else before.curved
     path, known = places_along(problem), first.known
-    if geometry != "linear":
-        faces = face_levers(problem, state, old)
-        known = KnownTension.after(problem.sheet, faces, bends=True)
     slopes = None
-    if geometry in FINITE:
+    if geometry != "linear":
+        rotations = problem.rotations(state, old)
+        faces = _face_levers(problem, state, old, rotations)
+        known = KnownTension.after(problem.sheet, faces, bends=True)
         left_out = tension_left_out(problem, state, known, path)
-        slopes = problem.rotations(state, old) if is_stiff(problem, path, left_out) else None
+        if geometry in FINITE and is_stiff(problem, path, left_out):
+            slopes = rotations
     bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
         mesh = problem.meshes[side]
@@ -192,11 +193,22 @@ def face_levers(
 
     ``curved``: the load due to its path that the solution was found with.
     """
+    return _face_levers(problem, state, curved, problem.rotations(state, curved))
+
+
+def _face_levers(
+    problem: PlateProblem,
+    state: PlateState,
+    curved: CurvedLoad | None,
+    rotations: tuple[Array, Array],
+) -> tuple[FaceLevers, FaceLevers]:
+    """Return `face_levers` for known rotations of the sections at nodes[1:] of both meshes."""
     out, half = [], 0.5 * problem.sheet.thickness
-    for side, turned in enumerate(problem.rotations(state, curved)):
+    for side, turned in enumerate(rotations):
         mesh = problem.meshes[side]
         ratios = half * np.diff(direction_of(turned[:-1], curved)) / mesh.dx[:-1]
-        pushed, pressed = (problem.forces(t[side], side) for t in (state.shear, state.pressure))
+        both = np.stack([state.shear[side], state.pressure[side]], axis=1)
+        pushed, pressed = problem.forces(both, side)
         out.append(FaceLevers(mesh.inner, pushed, pressed, ratios))
     return out[0], out[1]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import factorial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,7 @@ _POINTS = np.polynomial.legendre.leggauss(5)
 _PLACES, _SHARES = 0.5 + 0.5 * _POINTS[0], 0.5 * _POINTS[1]
 _OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
 _ONE_FACE = (0.25, 0.25)  # pressures on one face: half of them equal on both, half opposite
-_MOMENTS = 4  # that a sheet without tension needs
+_MOMENTS = 4  # that a sheet without tension needs; one less with a tension that straightens it
 _FEEBLE = 33.0  # over the mesh's length: a larger L hardly straightens the sheet within the mesh
 _STRETCH = 300.0  # its exponential is far from overflowing
 _TERMS = 5  # of the series in 1/L for such tensions; the terms left out are below 1e-10
@@ -60,8 +59,7 @@ class PiecewiseLoads:
     @classmethod
     def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> PiecewiseLoads:
         """Return tractions given by nodal values, (M + 1, n)."""
-        is_feeble = plate.tension > 0.0 and plate.length > _FEEBLE * float(np.ptp(nodes))
-        count = _MOMENTS + _TERMS - 1 if is_feeble else _MOMENTS
+        count = _count_of_moments(plate, float(np.ptp(nodes)))
         first, last = _moments(nodes[:-1], np.diff(nodes), count)[..., None]
         tail_moments = np.zeros((count, *lines.shape))
         for moment, one, other in zip(tail_moments, first, last, strict=True):  # fits the cache
@@ -85,13 +83,16 @@ class PiecewiseLoads:
         return np.asarray(self.tail_moments[1, 0])
 
     def forces_beyond(self, x: Array, values: Array) -> Array:
-        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh."""
-        line, tails = self.lines @ values, self.tail_moments[0] @ values
+        """Return int t ds from given places on, (m,) [N/mm], for nodal values of the mesh, (n,).
+
+        (s, m) for s sets of values, (n, s).
+        """
+        line, tails = (self.lines @ values).T, (self.tail_moments[0] @ values).T
         inside, at = self._inside(x)
         length = self.nodes[at + 1] - inside
-        share = length / (self.nodes[at + 1] - self.nodes[at])
-        means = 0.5 * share * line[at] + (1.0 - 0.5 * share) * line[at + 1]
-        return np.asarray(tails[at + 1] + length * means)
+        share = 0.5 * length / (self.nodes[at + 1] - self.nodes[at])
+        means = share * line[..., at] + (1.0 - share) * line[..., at + 1]
+        return np.asarray(tails[..., at + 1] + length * means)
 
     def _inside(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
         """Return the nearest places on the mesh, and the numbers of the nodes before them."""
@@ -104,13 +105,13 @@ class PiecewiseLoads:
         inside, at = self._inside(x)
         length = self.nodes[at + 1] - inside
         share = length / (self.nodes[at + 1] - self.nodes[at])
-        first, last = _moments(inside, length, self.tail_moments.shape[0])[..., None]
-        share = share[:, None]
+        first, last = _moments(inside, length, self.tail_moments.shape[0])
         here, there = self.lines[at], self.lines[at + 1]
         out = self.tail_moments[:, at + 1]
-        for moment, one, other in zip(out, first, last, strict=True):
-            moment += share * one * here
-            moment += ((1.0 - share) * one + other) * there
+        shares = zip(out, share * first, (1.0 - share) * first + last, strict=True)
+        for moment, one, other in shares:
+            moment += one[:, None] * here
+            moment += other[:, None] * there
         return np.asarray(out)
 
     def deflection(self, x: Array, tail_moments: Array) -> tuple[Array, Array, Array]:
@@ -158,18 +159,18 @@ class PiecewiseLoads:
         """
         count = self.tail_moments.shape[0]
         powers = np.arange(3, 4 + count - _MOMENTS)
-        factors = 0.5 / self.plate.stiffness * (-1.0 / self.plate.length) ** (powers - 3)
+        factors = np.zeros((2, 2 * count + 1))  # of odd and of even powers
+        share = (-1.0 / self.plate.length) ** (powers - 3)
+        factors[1 - powers % 2, powers] = 0.5 / self.plate.stiffness * share
+        terms, places = _taylor_terms(-x, count), np.add.outer(np.arange(count), np.arange(count))
         out = []
         for order in range(3):
-            signed = (-1.0) ** order * factors
-            odd, even = (
-                _moment_weights(x, powers[first::2] - order, signed[first::2], count)
-                for first in (0, 1)
-            )
+            # (s - x)^k/k! is the sum of (-x)^i/i! s^j/j! with i + j = k
+            odd, even = factors[:, places + order] @ terms
             made = np.einsum("km,kmn->mn", odd, ahead)
             if powers.size > 1:
                 made += even.T @ self.tail_moments[:, 0]
-            out.append(made)
+            out.append(-made if order == 1 else made)
         return tuple(out)
 
     def _decayed(self, x: Array) -> tuple[Array, Array]:
@@ -239,6 +240,13 @@ class PiecewiseLoads:
         return np.asarray(long[:, None] * tail_moments[0] - sheet.sheared * short)
 
 
+def _count_of_moments(plate: Plate, length: float) -> int:
+    """Return how many moments the bending under tractions on a mesh of this length needs."""
+    if plate.length <= _FEEBLE * length:
+        return _MOMENTS - 1
+    return _MOMENTS + _TERMS - 1 if plate.tension > 0.0 else _MOMENTS
+
+
 def _decaying_sums(pieces: Array, places: Array) -> Array:
     """Return int exp(s - x) t ds up to given places, (m, n), from pieces up to each of them.
 
@@ -269,16 +277,12 @@ def moments_about(x: Array, moments: Array, order: int) -> Array:
     return np.asarray(out)
 
 
-def _moment_weights(x: Array, powers: NDArray[np.intp], factors: Array, count: int) -> Array:
-    """Return the weights of int s^j/j! t ds, j < ``count``, in a sum of int (s - x)^k/k! t ds.
-
-    (count, m); ``powers``, ``factors``: k and its factor, of each term.
-    """
-    out = np.zeros((count, x.size))
-    for power, factor in zip(powers.tolist(), factors.tolist(), strict=True):
-        for j in range(power + 1):
-            out[j] += factor / factorial(power - j) * (-x) ** (power - j)
-    return out
+def _taylor_terms(values: Array, count: int) -> Array:
+    """Return v^k/k!, k < ``count``, (count, m)."""
+    terms = np.ones((count, values.size))
+    for k in range(1, count):
+        np.multiply(terms[k - 1], values / k, out=terms[k])
+    return terms
 
 
 def _moments(starts: Array, lengths: Array, count: int) -> Array:
@@ -287,7 +291,5 @@ def _moments(starts: Array, lengths: Array, count: int) -> Array:
     (2, count, m).
     """
     s = starts + _PLACES[:, None] * lengths
-    powers = np.ones((count, *s.shape))
-    for k in range(1, count):
-        np.multiply(powers[k - 1], s / k, out=powers[k])
-    return np.asarray(np.tensordot(_OF_ENDS, powers, axes=(1, 1)) * lengths)
+    powers = _taylor_terms(s.ravel(), count).reshape(count, *s.shape)
+    return np.asarray(np.moveaxis(_OF_ENDS @ powers, 1, 0) * lengths)

@@ -211,8 +211,11 @@ class PlateProblem:
         return self.forces(state.shear[side], side)
 
     def forces(self, traction: Array, side: int) -> Array:
-        """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm]."""
-        x, along = self.meshes[side].inner, self.arcs[side] * traction
+        """Return int t ds over all intervals but the last of one interface, (n - 1,) [N/mm].
+
+        (s, n - 1) for s tractions, (n, s).
+        """
+        x, along = self.meshes[side].inner, (self.arcs[side] * traction.T).T
         beyond = self.loads[side].forces_beyond(x, along)
         return np.asarray(-np.diff(beyond))
 

@@ -1,0 +1,167 @@
+"""The contact of a nip with given zones, solved on meshes whose nodes lie at their ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import inf
+
+import numpy as np
+
+from rollnip.contact import (
+    Crowding,
+    GivenStates,
+    Layout,
+    cosine_nodes,
+    crowding_of,
+    elements_of_zones,
+    subdivided,
+    uncrowded,
+)
+from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
+from rollnip.contact.problem import Indices
+from rollnip.influence import has_stiff_skin
+from rollnip.influence.surface import STIFF_SKIN
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
+from rollnip.rolling.iterations import own_second_order, solve_on_mesh
+from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.search import SearchState
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+
+_NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
+_PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
+
+Shape = tuple[Indices, Crowding]
+"""Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
+
+
+@dataclass(frozen=True)
+class ZoneSolver:
+    """Solver of a contact with given zones, on meshes with nodes at their ends.
+
+    It knows the lengths of the nip that the meshes must resolve.
+    """
+
+    nip: Nip
+    model: Model
+    kernels: PairKernels
+    given: GivenStates = field(default_factory=GivenStates)
+
+    @cached_property
+    def boundary(self) -> float:
+        """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
+        return boundary_layer(self.nip)
+
+    @cached_property
+    def _beta(self) -> float:
+        return dundurs(self.nip)
+
+    @cached_property
+    def longest_piece(self) -> float:
+        """Largest length of the linear pieces of the acting tractions [mm].
+
+        A thin incompressible covering on a rigid core moves as the second derivative of the
+        pressure, which linear pieces longer than its thickness cannot represent.
+        """
+        coverings = [
+            roller.coating_thickness
+            for roller in (self.nip.upper, self.nip.lower)
+            if not roller.is_rigid and roller.core is None
+            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
+        ]
+        return min(coverings, default=inf) / _PIECES_PER_THICKNESS
+
+    def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
+        """Return the crowding that resolves the boundary layers of each zone.
+
+        In stick, tractions change, too, over the length of slip between it and a leading edge.
+        ``coarsest``: length below which nothing need be resolved [mm].
+        """
+        least = max(self.boundary, coarsest)
+        shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
+        return crowding_of(layout.breaks, np.array(shortest))
+
+    def at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
+        """Return the mesh with nodes at the ends of the zones of a solution."""
+        nodes = cosine_nodes(layout.breaks, *shape)
+        edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
+        exponents = layout.edge_exponents(self._beta, self.nip.friction)
+        fine = subdivided(nodes, *shape, self.longest_piece, edges, exponents)
+        return mesh_on(nodes, kernels, fine)
+
+    def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
+        """Return a mesh on roughly known zones, to seek states node by node."""
+        shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
+        nodes = cosine_nodes(zones.breaks, *shape)
+        fine = subdivided(nodes, *shape, self.longest_piece)
+        return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+
+    @cached_property
+    def settled_change(self) -> float:
+        """Change of the second-order terms at which iterations stop, over the tolerance.
+
+        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
+        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
+        accuracy.
+        """
+        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
+
+    @cached_property
+    def _has_skin(self) -> bool:
+        return has_stiff_skin((self.nip.upper, self.nip.lower))
+
+    def renewed(self, state: SearchState) -> SearchState:
+        """Return the state with the second order evaluated from its last solution.
+
+        It is unchanged if the second order has converged, or is fixed.
+        """
+        before = state.before
+        if self.kernels.is_fixed or state.is_quiet:
+            return state
+        mesh, second, change = own_second_order(self.nip, self.model.geometry, self.kernels, before)
+        change /= self.model.tolerance
+        expected = to_come_after(change, state.change)
+        before = replace(before, mesh=mesh, second=second)
+        return SearchState(state.layout, before, change, expected)
+
+    def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
+        """Return the solution on one mesh, and the zones with the ends that it proposes."""
+        layout, before = state.layout, state.before
+        mesh = self.at_ends(layout, shape, before.mesh.kernels)
+        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
+        latest = solve_on_mesh(
+            self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
+        )
+        proposed = layout.with_proposed_ends(
+            mesh.inner, latest.state, self.nip.friction, mesh.fine.exponents
+        )
+        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+        if not self._has_skin:
+            shortest = shortest_zone(self.nip, self.model, layout.width)
+            proposed = layout.with_reversals(proposed, shortest)
+        return latest, proposed
+
+    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
+        """Return `Layout.singular`; None with friction, or with several zones.
+
+        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
+        root in the shear, which the pressure follows.
+        """
+        if self.nip.friction > 0.0 or layout.states.size > 1:
+            return None
+        return layout.singular(latest.mesh.inner, latest.state)
+
+
+def crowds_more(one: Crowding, other: Crowding) -> bool:
+    """Return whether nodes crowd more in any zone of ``one``, or the number of zones differs."""
+    return len(one) != len(other) or any(
+        a < b for ratios in zip(one, other, strict=True) for a, b in zip(*ratios, strict=True)
+    )
+
+
+def are_too_many(zones: int) -> bool:
+    """Return whether there are more zones than a mesh can resolve; only errors make that many."""
+    return zones * LEAST_SHARE_OF_A_ZONE > 1.0

@@ -63,13 +63,13 @@ class Layout:
     states: States
 
     @classmethod
-    def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
+    def of(cls, zones: tuple[ContactZone, ...], friction: float) -> Layout | None:
         """Return the layout of given zones, with free zones in the gaps between them.
 
         A stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
-        zones = with_stick_between(zones)
+        zones = with_stick_between(zones, friction)
         if not zones:
             return None
         breaks, states = [zones[0].start], []
@@ -103,7 +103,7 @@ class Layout:
                 return None
             nodes = int(touching[0]), int(touching[-1])
             zones += zones_between(x, state, friction, state.states, nodes, (start, stop))
-        return cls.of(tuple(zones))
+        return cls.of(tuple(zones), friction)
 
     @classmethod
     def with_free_surfaces(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:

@@ -194,9 +194,9 @@ class Placing:
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         strongest = min(map(min, crowding))
         most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh
-        # An edge that is misplaced by more than a boundary layer is found by bisection, as a solution
-        # shows only in which direction it should move. Likewise the length of stick where slip
-        # changes its sign is halved.
+        # An edge that is misplaced by more than a boundary layer is found by bisection, as a
+        # solution shows only in which direction it should move. Likewise the length of stick where
+        # slip changes its sign is halved.
         if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
             most += MOST_MESHES // 2
         return most

@@ -249,20 +249,23 @@ def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
 
 def test_layouts_have_stick_between_slip_and_free_zones_between_pieces():
     zones = (ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, STICK))
-    layout = Layout.of(zones)
+    layout = Layout.of(zones, 0.3)
     assert layout is not None
     assert layout.zones == zones
     assert layout.width == 2.0
-    assert Layout.of(()) is None
+    assert Layout.of((), 0.3) is None
     pieces = ContactZone(-1.0, 0.0, STICK), ContactZone(0.1, 1.0, STICK)
-    assert Layout.of(pieces).states.tolist() == [STICK, State.FREE, STICK]
-    assert Layout.of(pieces).zones == pieces
-    assert Layout.of(pieces).is_edge.all()
-    assert Layout.of((ContactZone(-1.0, 0.0, STICK), ContactZone(0.0, 1.0, STICK))) is None
-    between = Layout.of((ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS)))
+    assert Layout.of(pieces, 0.3).states.tolist() == [STICK, State.FREE, STICK]
+    assert Layout.of(pieces, 0.3).zones == pieces
+    assert Layout.of(pieces, 0.3).is_edge.all()
+    sticking = ContactZone(-1.0, 0.0, STICK), ContactZone(0.0, 1.0, STICK)
+    assert Layout.of(sticking, 0.3) is None
+    slipping = ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS)
+    between = Layout.of(slipping, 0.3)
     assert between.states.tolist() == [PLUS, STICK, MINUS]
-    np.testing.assert_allclose(between.breaks, -between.breaks[::-1])
-    assert 0.0 < between.breaks[2] < 0.5
+    np.testing.assert_allclose(between.breaks, [-1.0, -0.5, 0.5, 1.0])
+    by_friction = [Layout.of(slipping, friction).breaks[2] for friction in (1e-3, 8e-3)]
+    assert by_friction[1] == pytest.approx(2.0 * by_friction[0])
     assert not Layout(np.array([0.0, np.nan, 1.0]), layout.states).is_proper
     assert not Layout(np.array([0.0, -0.1, 1.0]), layout.states).is_proper
 

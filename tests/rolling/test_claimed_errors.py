@@ -148,8 +148,6 @@ def test_a_given_creepage_leaves_the_traction_open_by_as_much_as_a_given_tractio
     [
         # a thin covering driven with half of its load, decision 38
         ("SHARE_OF_CUT", 0.28),
-        # figure 4 with 0.26 mm: 0.56 to 0.6
-        ("_SHARE_OF_RESIDUAL", 0.6),
         # 160 random nips against twice as many finite elements, decision 41
         ("_SECONDARY_SHARE", 3.15e-3),
         ("_SHARE_OF_PEAK_PLACE", 5.1e-3),
@@ -175,3 +173,20 @@ def test_under_a_load_the_mean_pressure_is_as_uncertain_as_the_width(geometry):
     assert solution.model.geometry == geometry
     of_width = solution.error["nip_width"] / solution.nip_width
     assert solution.error["mean_pressure"] >= 0.999 * of_width * solution.mean_pressure
+
+
+def test_a_viscous_loss_of_second_order_claims_what_linear_fields_leave_of_it():
+    """2 % from that of "finite" at the larger load; 0.35 % was claimed."""
+    rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
+    for load in (2.0, 10.0):
+        nip = rn.Nip(
+            upper=rn.Roller(radius=50.0, layers=(rn.Layer(8.0, rubber),)),
+            lower=rn.Roller(radius=60.0),
+            normal=rn.LineLoad(load),
+            tangential=rn.Traction(0.0),
+            friction=0.3,
+            speed=500.0,
+        )
+        second, finite = (rn.solve(nip, rn.Model(geometry=one)) for one in ("second", "finite"))
+        off = abs(second.dissipation_viscous - finite.dissipation_viscous)
+        assert 5e-3 * finite.dissipation_viscous < off < second.error["dissipation_viscous"]

@@ -104,7 +104,7 @@ def test_a_guessed_width_is_start_enough(wheels, attempt, off):
 @pytest.mark.parametrize("shift", [0.1, -0.1])
 def test_zones_of_the_start_need_be_right_to_a_tenth(wheels, attempt, shift):
     solution = rn.solve(wheels, LINEAR)
-    layout = Layout.of(solution.final.zones)
+    layout = Layout.of(solution.final.zones, solution.nip.friction)
     shifts = shift * solution.nip_width * np.array([-0.5, 1.0, 0.5])
     found = attempt(Layout(layout.breaks + shifts, layout.states))
     assert found is not None

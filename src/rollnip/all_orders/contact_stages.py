@@ -102,7 +102,7 @@ def first_contact(
         *_, located = sizes
         return kernels, located, ContactStage.COARSE
     for located in sizes:
-        layout = Layout.of(located.zones) if located.settled else None
+        layout = Layout.of(located.zones, nip.friction) if located.settled else None
         if layout is not None and is_too_deep is not None and is_too_deep(located, is_rough=True):
             return kernels, located, ContactStage.COARSE
         if layout is not None:
@@ -218,7 +218,7 @@ def _with_free_ends(
     nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
 ) -> MeshSolution | None:
     """Return a verified solution with about the zones of a coarse one; None where there is none."""
-    layout = Layout.of(latest.zones)
+    layout = Layout.of(latest.zones, nip.friction)
     if layout is None:
         return None
     found = with_free_ends(nip, model, kernels, layout, latest, _COARSE_TOLERANCE)
@@ -271,7 +271,7 @@ def _with_moved_ends(
     at a boundary layer need ends that are placed exactly, except where friction grips a skin: there
     the correction moves them by more than that.
     """
-    layout, found = Layout.of(latest.zones), None
+    layout, found = Layout.of(latest.zones, nip.friction), None
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)

@@ -20,6 +20,7 @@ from rollnip.all_orders.contact_stages import (
 )
 from rollnip.all_orders.corrections import PairCorrection
 from rollnip.all_orders.nearby import Nearby
+from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.finite import NoEquilibriumError
 from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import Geometry, Model
@@ -35,7 +36,7 @@ from rollnip.rolling.mesh_solution import IterationFailure, MeshSolution
 from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.surfaces import PairKernels
 
-MOST_CORRECTIONS = 30  # iterations with one cut-off
+MOST_CORRECTIONS = MOST_ITERATIONS  # with one cut-off
 SMALL_CHANGE = 0.05  # change of the correction in an iteration below which that may be the last one
 _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
 # Factors of the cut-off, tried in turn: beside an edge that slips at strains of two and more the

@@ -51,7 +51,7 @@ class Nearby:
         The influence functions that hold the correction, and the solution; None where the nips are
         not alike enough, or no solution is found.
         """
-        held, layout = self.kernels.held, Layout.of(self.final.zones)
+        held, layout = self.kernels.held, Layout.of(self.final.zones, nip.friction)
         if held is None or held.share < 1.0 or layout is None:
             return None
         if not self._is_like(nip, half_width):

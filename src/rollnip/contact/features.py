@@ -53,16 +53,19 @@ def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, floa
     return tuple(intervals)
 
 
-def with_stick_between(zones: tuple[ContactZone, ...], share: float) -> tuple[ContactZone, ...]:
-    """Return the zones with short stick zones between adjoining slip zones of opposite sign.
+def with_stick_between(zones: tuple[ContactZone, ...], friction: float) -> tuple[ContactZone, ...]:
+    """Return the zones with stick between adjoining slip zones of opposite sign.
 
-    The stick takes a share of the shorter slip zone, on either side.
+    On either side the stick takes half of the shorter slip zone or, as its length falls with the
+    friction, the cube root of the friction of it if that is less. So it is rather too long: where
+    it is much too short, tractions do not tell where its ends belong (decision 103).
     """
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]
         slips = STICK not in (before.state, zone.state) and before.state != zone.state
         if slips and before.stop == zone.start:
+            share = min(0.5, friction ** (1.0 / 3.0))
             reach = share * min(before.stop - before.start, zone.stop - zone.start)
             start, stop = before.stop - reach, zone.start + reach
             out[-1] = replace(before, stop=start)

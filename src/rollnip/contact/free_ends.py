@@ -40,8 +40,7 @@ NEAR_ENOUGH = 0.1
 
 It is also the misplacement assumed initially, the free surface beside estimated edges, and the
 relative change of a half-width or a correction up to which a contact is an initial guess for the
-next one; and the length of the stick that is put between slip both ways, over the shorter zone of
-slip, on either side.
+next one.
 """
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 _LONGEST_MOVE = 0.4  # longest move of an end into a zone, over the length of that zone
@@ -64,13 +63,13 @@ class Layout:
     states: States
 
     @classmethod
-    def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
+    def of(cls, zones: tuple[ContactZone, ...], friction: float) -> Layout | None:
         """Return the layout of given zones, with free zones in the gaps between them.
 
-        A short stick zone is put between two slip zones of opposite sign, where the surfaces must
+        A stick zone is put between two slip zones of opposite sign, where the surfaces must
         stick. Return None where neighbours have the same state, or a zone has no length.
         """
-        zones = with_stick_between(zones, NEAR_ENOUGH)
+        zones = with_stick_between(zones, friction)
         if not zones:
             return None
         breaks, states = [zones[0].start], []
@@ -104,7 +103,7 @@ class Layout:
                 return None
             nodes = int(touching[0]), int(touching[-1])
             zones += zones_between(x, state, friction, state.states, nodes, (start, stop))
-        return cls.of(tuple(zones))
+        return cls.of(tuple(zones), friction)
 
     @classmethod
     def with_free_surfaces(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:

@@ -12,17 +12,17 @@ from rollnip.rollers import Roller
 from rollnip.rolling.mesh_solution import Figures
 
 _CREEPAGE_BY_SLIP = 0.35  # see `creepage_by_slip`; on four nips 0.17 to 0.31
-_SHORTEST = 0.5  # zone, over the tolerance times the lesser of width and boundary layer
 
 
 def shortest_zone(nip: Nip, model: Model, width: float) -> float:
     """Return the length of the shortest zone that a contact is searched for [mm].
 
-    Unlike surfaces that stick up to an edge slip there over some length, however short, and next to
-    it in the other direction over a shorter one. Edges move by a tenth of the length of a slip zone
-    that is left out (decision 87).
+    It is the tolerance times the width, or times the boundary layer if that is shorter. Unlike
+    surfaces that stick up to an edge slip there over some length, however short, and next to it in
+    the other direction over a shorter one. Edges move by a tenth of the length of a slip zone that
+    is left out (decision 87).
     """
-    return _SHORTEST * model.tolerance * min(width, boundary_layer(nip))
+    return model.tolerance * min(width, boundary_layer(nip))
 
 
 def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:

@@ -29,10 +29,6 @@ from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
 # 19.
 MOST_MESHES = 8
-# Additional meshes for the edges of a single zone with boundary layers: an edge that is misplaced
-# by more than a boundary layer is found by bisection, as a solution shows only in which direction
-# it should move. Likewise for a zone of stick where slip changes its sign, whose length is halved.
-_MOST_HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -198,8 +194,11 @@ class Placing:
         most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         strongest = min(map(min, crowding))
         most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh
+        # An edge that is misplaced by more than a boundary layer is found by bisection, as a
+        # solution shows only in which direction it should move. Likewise the length of stick where
+        # slip changes its sign is halved.
         if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
-            most += _MOST_HALVINGS
+            most += MOST_MESHES // 2
         return most
 
 

@@ -84,7 +84,7 @@ def free_ends_from_nodes(
     nip: Nip, model: Model, kernels: PairKernels, located: MeshSolution
 ) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node."""
-    layout, count = Layout.of(located.zones), located.mesh.inner.size
+    layout, count = Layout.of(located.zones, nip.friction), located.mesh.inner.size
     if layout is None:
         return None
     return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, count)

@@ -141,7 +141,7 @@ class ZoneSolver:
         # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
         if not self._has_skin:
             shortest = shortest_zone(self.nip, self.model, layout.width)
-            proposed = layout.with_reversals(proposed, shortest)
+            proposed = layout.with_reversals(proposed, NEGLIGIBLE * shortest)
         return latest, proposed
 
     def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:

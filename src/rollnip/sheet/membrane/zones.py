@@ -152,7 +152,7 @@ class MembraneZones(SideZones):
             for number, friction in enumerate(frictions)
         ]
         edges = whole[0][0].start, whole[0][-1].stop
-        upper, lower = (Layout.of(zones) for zones in whole)
+        upper, lower = map(Layout.of, whole, frictions)
         if upper is None or lower is None:
             stick = Layout(np.array(edges), Layout.sticking(1.0).states)
             return cls(stick, stick)

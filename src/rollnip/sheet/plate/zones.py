@@ -161,7 +161,7 @@ class PlateZones(SideZones):
             if not zones:
                 raise np.linalg.LinAlgError("an interface without contact")
             edges = np.array([zones[0].start, zones[-1].stop])
-            sides.append(Layout.of(zones) or Layout(edges, Layout.sticking(1.0).states))
+            sides.append(Layout.of(zones, friction) or Layout(edges, Layout.sticking(1.0).states))
         return cls(sides[0], sides[1])
 
     def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:

@@ -134,7 +134,8 @@ def test_a_covering_pressed_in_by_its_thickness_is_refused_at_once(geometry, thi
 def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
     """`finite` presses it in by 52 or 53 %, on the coarse contact that it is judged on.
 
-    That `curved` says 76 % proves nothing: at 20 N/mm it says 65 %, and `finite` converges.
+    That `curved` says 76 % proves nothing: at 20 N/mm it says 65 %, and `finite` converges. With
+    friction rounding decides how many elements it takes until that is known: 53 to 900.
     """
     foam = rn.Elastic(modulus=3.0, poisson=0.3)
     covered = rn.Roller(radius=50.0, layers=[rn.Layer(1.0, foam)])
@@ -145,7 +146,7 @@ def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
     assert not solution.converged
     assert solution.model.geometry == "finite"
     assert re.search("is pressed in by 5[23] %", solution.status)
-    assert solution.solver.elements < 100
+    assert solution.solver.elements < (100 if friction == 0.0 else 1000)
     if not friction:
         lighter = replace(nip, normal=rn.LineLoad(20.0))
         assert rn.solve(lighter, rn.Model(geometry="finite")).converged

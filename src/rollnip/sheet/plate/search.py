@@ -50,6 +50,7 @@ Array = NDArray[np.float64]
 
 _SLACK = 0.1  # over the tolerance: relative excess of the shear that counts as rounding
 _FAIRLY_PLACED = 2e-3  # end error over the width, small enough to judge the states
+_NEARLY_PLACED = 0.01  # end error over the width, small enough for secant steps
 _OF_THICKNESS = 0.25  # boundary layer of the pressure on a rigid roller, over the sheet's thickness
 # Least share of all elements in each zone. The strip between the edges of both contacts matters as
 # much as long zones: with six elements in it on all mesh sizes, these agreed on wrong figures.
@@ -168,7 +169,9 @@ class PlateSearch:
                 proposed = zones.moved(problem, iterate.state, found)
                 if is_placed and proposed.distance(zones) <= allowed:
                     break
-            zones = self.secants.next(zones, proposed)
+            zones = (
+                proposed if misplacement > _NEARLY_PLACED else self.secants.next(zones, proposed)
+            )
         return _unsettled(zones, iterate, misplacement) if fair is None else fair
 
     def _solve_with_zones(

@@ -40,6 +40,7 @@ def check_contact(nip, geometry):
     # 5 (l/w)^1.5 mu F.
     final = solution.final
     shortest = shortest_zone(nip, solution.model, solution.nip_width)
+    shortest = max(shortest, *(slip.reach for slip in final.slip_left_out), 0.0)
     excess = np.abs(final.shear) - mu * np.maximum(final.pressure, 0.0)
     ends = [end for zone in final.zones for end in (zone.start, zone.stop)]
     is_far = np.min(np.abs(final.x[:, None] - ends), axis=1) > shortest

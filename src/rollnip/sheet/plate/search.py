@@ -127,13 +127,15 @@ class PlateSearch:
         is returned. ``allowed``: allowed error of a zone end, over the width.
         """
         self.secants.begin_size()
+        # With a finer tolerance, stick that has closed would open by less than shows where it ends.
+        reopening = max(self.model.tolerance, Model().tolerance)
         shapes = _Shapes()
         changes = rough_ones = 0
         known = min(before.misplacement, 1.0)
         iterate, misplacement = before, inf
         fair: PlateIterate | None = None
         for _ in range(_MOST_MESHES):
-            zones = zones.without_slivers().reopened(END_TOLERANCE * self.model.tolerance)
+            zones = zones.without_slivers().reopened(END_TOLERANCE * reopening)
             if not zones.is_proper:
                 break
             iterate, is_fine = self._solve_with_zones(

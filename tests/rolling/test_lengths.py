@@ -17,6 +17,14 @@ ROLLING = rn.Nip(
     tangential=rn.Traction(0.0),
     friction=0.15,
 )
+# Its surfaces are so unlike that tractions turn beside the edges.
+TURNING = rn.Nip(
+    upper=rn.Roller(radius=30.0, layers=(rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.3)),)),
+    lower=rn.Roller(radius=40.0),
+    normal=rn.LineLoad(0.4),
+    tangential=rn.Traction(0.0),
+    friction=0.5,
+)
 
 
 def test_a_zone_counts_by_the_width_or_by_a_boundary_layer_that_is_shorter():
@@ -64,13 +72,7 @@ def test_second_parameter_of_dundurs():
 @pytest.mark.parametrize("friction", [0.7, 0.8, 0.9, 1.1])
 def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
     """As if the slip zones at the edges of unlike surfaces could never be placed."""
-    nip = rn.Nip(
-        upper=rn.Roller(radius=30.0, layers=(rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.3)),)),
-        lower=rn.Roller(radius=40.0),
-        normal=rn.LineLoad(0.4),
-        tangential=rn.Traction(0.0),
-        friction=friction,
-    )
+    nip = replace(TURNING, friction=friction)
     fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4))
     assert fine.converged
     monkeypatch.setattr(ZoneSearch, "slipping_at_edges", lambda *_: None)
@@ -85,13 +87,7 @@ def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
 @pytest.mark.parametrize("friction", [0.5, 0.6])
 def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out(friction):
     """It changes the creepage by its length over the width less than at a leading edge."""
-    nip = rn.Nip(
-        upper=rn.Roller(radius=30.0, layers=(rn.Layer(2.0, rn.Elastic(modulus=2.0, poisson=0.3)),)),
-        lower=rn.Roller(radius=40.0),
-        normal=rn.LineLoad(0.4),
-        tangential=rn.Traction(0.0),
-        friction=friction,
-    )
+    nip = replace(TURNING, friction=friction)
     fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4)).final
     found = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-3)).final
     (slip,) = found.slip_left_out

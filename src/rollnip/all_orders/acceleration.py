@@ -29,7 +29,7 @@ class AndersonMixer:
     Attributes
     ----------
     x : (n,) places at which corrections are compared [mm].
-    results : the last corrections that solutions led to, oldest first.
+    results : the corrections that solutions led to, oldest first.
     residuals : (4 n,) the differences of each at ``x``.
     """
 

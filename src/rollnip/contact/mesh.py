@@ -68,6 +68,11 @@ class Subdivision:
     exponents: tuple[complex, ...] = ()
     pieces: int = 1
 
+    @property
+    def inner_breaks(self) -> list[int]:
+        """Indices in nodes[1:-1] of the mesh of the breaks between its zones."""
+        return [*accumulate(self.elements)][:-1]
+
     def integrated(self, values: Array) -> Array:
         """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
         dx = (self.nodes[2:] - self.nodes[1:-1])[:, None]

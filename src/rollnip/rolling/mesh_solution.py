@@ -176,9 +176,8 @@ class MeshSolution:
         Between unlike surfaces the pressure follows the shear, whose slope is infinite where stick
         ends towards the trailing edge. Meshes find the height of such a peak to first order only.
         """
-        transitions = np.cumsum(self.mesh.fine.elements)[:-1]
-        away = np.abs(transitions - np.argmax(self.state.pressure))
-        return bool(np.any(away <= 3))
+        highest = int(self.state.pressure.argmax())
+        return any(abs(highest - end) <= 3 for end in self.mesh.fine.inner_breaks)
 
     @property
     def nodes(self) -> Array:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate
 from math import inf, log10
 
 import numpy as np
@@ -186,8 +185,7 @@ class Placing:
         over = np.abs(latest.shear) - self.nip.friction * np.maximum(latest.pressure, 0.0)
         least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
         cells = set(latest.mesh.inner.searchsorted(latest.x[over > least]).tolist())
-        breaks = [*accumulate(latest.mesh.fine.elements)][:-1]
-        return any(end in cells or end + 1 in cells for end in breaks)
+        return any(not cells.isdisjoint((end, end + 1)) for end in latest.mesh.fine.inner_breaks)
 
     def _most_meshes(self, layout: Layout) -> int:
         crowding = self.solver.crowding(layout)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, exp, inf, pi
+from math import copysign, exp, inf, log, pi
 
 import numpy as np
 
@@ -120,9 +120,10 @@ def slip_by_turning(
 
     Parameters are those of `slip_beside`.
     """
-    if not kappa.imag:
-        return None
     inwards = -1 if leads else 1
+    sticks = state.states[edge + inwards :: inwards] == STICK
+    if not (kappa.imag and sticks[0]):
+        return None
     distance, roots = roots_beside(x, state, edge, inwards, kappa)
     root = root_at(distance, roots)
     # mu p - sign q is the real part of (mu + i sign)(p + i q): it is 0 where that has turned to i.
@@ -131,8 +132,9 @@ def slip_by_turning(
         (0.5 * pi + side * phase((friction + 1j * sign) * root), slip)
         for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0))
     )
-    reach = distance[0] * exp(-turn / abs(kappa.imag))
-    # In a zone that is shorter than that, tractions are not those of an edge alone.
-    sticks = state.states[edge + inwards :: inwards] == STICK
     length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
-    return TurningSlip(reach, slip, abs(root), leads) if reach < length else None
+    # In a zone that is shorter than the reach, tractions are not those of an edge alone.
+    if not -turn < abs(kappa.imag) * log(length / distance[0]):
+        return None
+    reach = float(distance[0] * exp(-turn / abs(kappa.imag)))
+    return TurningSlip(reach, slip, abs(root), leads)

@@ -274,20 +274,34 @@ def test_error_of_cubics_is_that_of_a_quartic(elements):
         values.extend(values[-1] + np.arange(1, n + 1) ** 4.0)
     nodes = 0.5 * np.arange(len(values))
     expected = 0.5 * sum(n - 3 for n in elements) * 24.0 * 3.0 / 128.0
-    even = ((1.0, 1.0),) * len(elements)
-    assert cubic_error(np.array(values), nodes, elements, even) == pytest.approx(expected)
-    assert cubic_error(np.arange(9.0) ** 3, np.arange(9.0), (8,), ((1.0, 1.0),)) < 1e-12
+    even, all_count = ((1.0, 1.0),) * len(elements), np.zeros(len(values), dtype=bool)
+    found = cubic_error(np.array(values), nodes, elements, even, all_count)
+    assert found == pytest.approx(expected)
+    cubic, all_count = np.arange(9.0) ** 3, np.zeros(9, dtype=bool)
+    assert cubic_error(cubic, np.arange(9.0), (8,), ((1.0, 1.0),), all_count) < 1e-12
+
+
+def test_no_error_of_cubics_counts_that_takes_a_value_left_out():
+    values, left_out = np.zeros(41), np.zeros(41, dtype=bool)
+    values[3] = 1.0
+    arguments = values, np.arange(41.0), (40,), ((1.0, 1.0),)
+    assert cubic_error(*arguments, left_out) > 0.1
+    left_out[3] = True
+    assert cubic_error(*arguments, left_out) == 0.0
+    values[30] = 1.0
+    assert cubic_error(*arguments, left_out) > 0.1
 
 
 def test_an_error_in_a_boundary_layer_counts_more_than_one_in_the_middle():
     """By the root of the zone over the distance, but no more than at the crowding."""
     nodes, r = np.linspace(0.0, 1.0, 101), 0.04
+    all_count = np.zeros(nodes.size, dtype=bool)
 
     def counted(place):
         values = np.zeros(nodes.size)
         values[place] = 1.0  # fourth differences of 1, 4, 6, 4, 1 around it
         even, crowded = (
-            cubic_error(values, nodes, (100,), ((ratio, ratio),)) for ratio in (1.0, r)
+            cubic_error(values, nodes, (100,), ((ratio, ratio),), all_count) for ratio in (1.0, r)
         )
         return crowded / even
 

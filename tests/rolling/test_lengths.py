@@ -88,7 +88,7 @@ def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
 def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out(friction):
     """It changes the creepage by its length over the width less than at a leading edge."""
     nip = replace(TURNING, friction=friction)
-    fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4)).final
+    fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=2e-5)).final
     found = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-3)).final
     (slip,) = found.slip_left_out
     assert not slip.leads
@@ -98,4 +98,5 @@ def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out
     here, leading = (
         creepage_by_slip(nip, found.figures, one) for one in (slip, replace(slip, leads=True))
     )
-    assert here == pytest.approx(2.0 * leading * slip.length / found.figures.nip_width)
+    share = slip.length / found.figures.nip_width
+    assert here == pytest.approx(2.0 / 3.0 * leading * share, abs=0.0)

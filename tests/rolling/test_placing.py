@@ -100,13 +100,13 @@ def test_no_tension_beside_a_short_zone(geometry, load):
         lower=rn.Roller(radius=24.0, layers=(hard,)),
         normal=rn.LineLoad(load),
         tangential=rn.Traction(0.0),
-        friction=0.51,
+        friction=0.85,
         speed=20.0,
     )
-    solution = rn.solve(nip, rn.Model(geometry=geometry, tolerance=3e-4))
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
     assert solution.converged
-    first = solution.zones[0]
-    assert first.stop - first.start < 3e-4 * solution.nip_width
+    last = solution.zones[-1]
+    assert last.stop - last.start < 2e-4 * solution.nip_width
     assert np.min(solution.pressure) >= 0.0
 
 

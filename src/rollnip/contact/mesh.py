@@ -172,7 +172,11 @@ def _carry_zone(old: int, new: int, *, between: bool) -> Array:
 
 
 def cubic_error(
-    values: Array, nodes: Array, elements: tuple[int, ...], crowding: Crowding
+    values: Array,
+    nodes: Array,
+    elements: tuple[int, ...],
+    crowding: Crowding,
+    left_out: NDArray[np.bool_],
 ) -> float:
     """Return the estimated error of cubic interpolation between nodes, integrated over x.
 
@@ -187,6 +191,7 @@ def cubic_error(
     values : (sum of elements + 1,) at the nodes from the first break to the last.
     nodes : their places [mm].
     elements, crowding : of each zone.
+    left_out : (sum of elements + 1,) nodes whose values are not counted.
     """
     fourth = np.abs(
         values[4:] - 4.0 * (values[3:-1] + values[1:-3]) + 6.0 * values[2:-2] + values[:-4]
@@ -194,6 +199,8 @@ def cubic_error(
     ends = [0, *accumulate(elements)]
     for end in ends[1:-1]:
         fourth[end - 3 : end] = 0.0  # values are not smooth across a break
+    for offset in range(5):
+        fourth[left_out[offset : left_out.size - 4 + offset]] = 0.0
     counted = np.ones(nodes.size)
     for (start, stop), (first, last) in zip(pairwise(ends), crowding, strict=True):
         if min(first, last) < 1.0:

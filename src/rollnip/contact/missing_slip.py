@@ -11,7 +11,7 @@ import numpy as np
 
 from rollnip.contact.ends import outward_move, root_at, roots_beside
 from rollnip.contact.free_ends import Layout
-from rollnip.contact.problem import STICK, Array, ContactState, State
+from rollnip.contact.problem import STICK, Array, ContactState, Mask, State
 
 
 def slipping_at_edges(
@@ -44,7 +44,7 @@ def slipping_at_edges(
             length, slip = turning.length, turning.state
         else:
             length, slip = slip_beside(*beside, leads=leads)
-            if length <= least:
+            if length <= max(least, 0.0 if turning is None else turning.extent):
                 continue
         place = breaks[edge]
         breaks.insert(edge + (not leads), place - length if leads else place + length)
@@ -92,12 +92,14 @@ class TurningSlip:
     reach : length over which the tractions of the solution exceed the bound [mm].
     state : of the slip zone.
     amplitude : |p + i q| beside the edge over the root of the distance [MPa/sqrt(mm)].
-    leads : whether it is at a leading edge.
+    edge : place of the edge [mm].
+    leads : whether it is a leading edge.
     """
 
     reach: float
     state: State
     amplitude: float
+    edge: float
     leads: bool
 
     @property
@@ -108,6 +110,34 @@ class TurningSlip:
         reach at a trailing edge (on seven 0.90 to 1.23, and 1.83 with a friction of 2).
         """
         return 0.5 * self.reach if self.leads else self.reach
+
+    @property
+    def extent(self) -> float:
+        """Length from the edge within which a solution without the zone shows nothing [mm].
+
+        It is longer than all zones above.
+        """
+        return 2.0 * self.reach
+
+    def covers(self, x: Array) -> Mask:
+        """Return which places ``x`` in the contact [mm] lie within the extent."""
+        return np.asarray(np.abs(x - self.edge) <= self.extent)
+
+    def left_out_of(self, layout: Layout, *, keeps_stick: bool) -> Layout:
+        """Return a layout without the zones from the edge on that are shorter than the extent.
+
+        ``keeps_stick``: see `Layout.without`.
+        """
+        distance = np.where(layout.is_edge, np.abs(layout.breaks - self.edge), inf)
+        number = int(np.argmin(distance))
+        while True:
+            zone = number - self.leads
+            fewer = layout.without(zone, keeps_stick=keeps_stick)
+            if fewer is None or layout.lengths[zone] >= self.extent:
+                return layout
+            if fewer.is_edge.sum() < layout.is_edge.sum():
+                return layout  # the zone is a piece of the contact by itself
+            layout, number = fewer, number - self.leads
 
 
 def slip_by_turning(
@@ -137,4 +167,4 @@ def slip_by_turning(
     if not -turn < abs(kappa.imag) * log(length / distance[0]):
         return None
     reach = float(distance[0] * exp(-turn / abs(kappa.imag)))
-    return TurningSlip(reach, slip, abs(root), leads)
+    return TurningSlip(reach, slip, abs(root), float(x[edge]), leads)

@@ -24,6 +24,7 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
 )
 from rollnip.rolling.iterations import converge, with_residual
+from rollnip.rolling.lengths import negligible_slip
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
@@ -153,9 +154,14 @@ def elements_without_crowding(latest: MeshSolution) -> int:
 def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
     """Return the interpolation error of the tractions, over what is allowed.
 
-    Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong.
+    Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong. Tractions
+    that negligible slip covers do not count: without that slip they are singular.
     """
-    x, zones = latest.mesh.inner, (latest.mesh.fine.elements, latest.mesh.fine.crowding)
+    x, fine = latest.mesh.inner, latest.mesh.fine
+    covered = np.zeros(x.size, dtype=bool)
+    for slip in negligible_slip(nip, model, latest):
+        covered |= slip.covers(x)
+    zones = fine.elements, fine.crowding, covered
     pressure, shear = latest.state.pressure, latest.state.shear
     width = float(x[-1] - x[0])
     peak = float(np.max(pressure))

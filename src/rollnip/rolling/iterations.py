@@ -156,5 +156,4 @@ def with_residual(
         latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
     shortest = shortest_zone(nip, model, latest.figures.nip_width)
-    shortest = max(shortest, *(slip.reach for slip in latest.slip_left_out), 0.0)
     return replace(latest, residual=residual(nip, fields, latest, shortest))

@@ -9,7 +9,7 @@ from rollnip.contact import TurningSlip
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.mesh_solution import Figures
+from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
 
 _CREEPAGE_BY_SLIP = 0.35  # see `creepage_by_slip`; on four nips 0.17 to 0.31
 
@@ -34,13 +34,30 @@ def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:
     A creep w changes the creepage under a given traction by int q* w dx. By reciprocity q* is the
     shear of unit traction that sticks everywhere and rolls the other way. At a distance s it is
     1/sqrt(s) beside a leading edge, where such rolling ends, and sqrt(s) beside a trailing one:
-    there slip matters less, by its length over the width.
+    there slip matters less, by s over the width, which is a third of the length of the zone in the
+    mean over a creep that falls from the edge on, or less.
     """
     width = figures.nip_width
     slope = 0.5 * nip.curvature  # over the width
     share = slip.amplitude * sqrt(width) / (2.0 * figures.peak_pressure)
-    by_edge = 1.0 if slip.leads else slip.length / width
+    by_edge = 1.0 if slip.leads else slip.length / (3.0 * width)
     return _CREEPAGE_BY_SLIP * slope * share * slip.length * by_edge
+
+
+def is_negligible(nip: Nip, model: Model, figures: Figures, slip: TurningSlip) -> bool:
+    """Return whether slip at an edge need not be looked for, as figures hardly depend on it.
+
+    It changes the creepage by a quarter of its tolerance at most; the rest is left to the estimated
+    errors.
+    """
+    least = 0.25 * model.tolerance * creepage_scale(nip, figures)
+    return creepage_by_slip(nip, figures, slip) <= least
+
+
+def negligible_slip(nip: Nip, model: Model, latest: MeshSolution) -> list[TurningSlip]:
+    """Return the slip zones left out by a solution that need not be looked for."""
+    left_out = latest.slip_left_out
+    return [slip for slip in left_out if is_negligible(nip, model, latest.figures, slip)]
 
 
 def boundary_layer(nip: Nip) -> float:

@@ -25,8 +25,8 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.lengths import creepage_by_slip, shortest_zone
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
+from rollnip.rolling.lengths import is_negligible, negligible_slip, shortest_zone
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.surfaces import Array
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
@@ -127,7 +127,8 @@ class ZoneSearch:
         Violations up to `NEGLIGIBLE` times the tolerance change no state. If all of the tolerance
         were allowed, slip zones at edges would be missed on which the creepage of a wide, thin
         covering depends. At finite strain all of it is allowed, as the correction may leave as
-        much. Nodes next to the ends of zones do not count, as the ends may be misplaced.
+        much. Nodes next to the ends of zones do not count, as the ends may be misplaced, nor do
+        those that negligible slip covers.
 
         ``checks_contact``: whether to check contact too; until the edges are placed, only stick and
         slip are checked.
@@ -141,6 +142,8 @@ class ZoneSearch:
         ends = layout.ends(latest.problem.x)
         differs[ends] = False  # a node at an end belongs to both zones
         differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
+        for slip in negligible_slip(self.nip, self.model, latest):
+            differs[slip.covers(latest.problem.x)] = False
         if not differs.any():
             return None
         return implied(holds_contact=True) if checks_contact else wanted
@@ -176,6 +179,8 @@ class ZoneSearch:
         layout = layout.without_short_zones(
             self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
         )
+        for slip in negligible_slip(self.nip, self.model, latest):
+            layout = slip.left_out_of(layout, keeps_stick=_keeps_stick(latest))
         second = second_order(self.nip, self.model.geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
@@ -188,8 +193,6 @@ class ZoneSearch:
         if self.nip.friction == 0.0:
             return None
         figures = latest.figures
-        # A quarter of what the creepage may be in error is left to the estimated errors.
-        least = 0.25 * self.model.tolerance * creepage_scale(self.nip, figures)
         slipping = slipping_at_edges(
             layout,
             latest.mesh.inner,
@@ -197,7 +200,7 @@ class ZoneSearch:
             self.nip.friction,
             self._shortest(layout),
             latest.mesh.fine.exponents,
-            matters=lambda slip: creepage_by_slip(self.nip, figures, slip) > least,
+            matters=lambda slip: not is_negligible(self.nip, self.model, figures, slip),
         )
         return None if slipping.is_like(layout) else slipping
 

@@ -134,8 +134,7 @@ def test_a_covering_pressed_in_by_its_thickness_is_refused_at_once(geometry, thi
 def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
     """`finite` presses it in by 52 or 53 %, on the coarse contact that it is judged on.
 
-    That `curved` says 76 % proves nothing: at 20 N/mm it says 65 %, and `finite` converges. With
-    friction rounding decides how many elements it takes until that is known: 53 to 900.
+    That `curved` says 76 % proves nothing: at 20 N/mm it says 65 %, and `finite` converges.
     """
     foam = rn.Elastic(modulus=3.0, poisson=0.3)
     covered = rn.Roller(radius=50.0, layers=[rn.Layer(1.0, foam)])
@@ -146,7 +145,7 @@ def test_finite_strain_refuses_what_it_presses_in_by_more_than_half(friction):
     assert not solution.converged
     assert solution.model.geometry == "finite"
     assert re.search("is pressed in by 5[23] %", solution.status)
-    assert solution.solver.elements < (100 if friction == 0.0 else 1000)
+    assert solution.solver.elements < 100
     if not friction:
         lighter = replace(nip, normal=rn.LineLoad(20.0))
         assert rn.solve(lighter, rn.Model(geometry="finite")).converged
@@ -171,7 +170,7 @@ def test_finite_strain_counts_a_soft_layer_as_it_is():
     assert pressed[0] == pytest.approx(0.463, abs=0.005)
     deep = rn.solve(replace(_with_layers(layers, 4.0), friction=0.0))
     assert not deep.converged
-    assert "0.5 mm thick, is pressed in by 52 %" in deep.status
+    assert re.search("0.5 mm thick, is pressed in by 5[12] %", deep.status)  # a coarse contact
 
 
 def test_plies_of_one_layer_count_as_it_does():

@@ -8,10 +8,13 @@ import pytest
 from scipy.optimize import brentq
 
 import rollnip as rn
-from rollnip.all_orders import contact_stages
+from rollnip.all_orders import contact_stages, iteration
+from rollnip.all_orders.contact_stages import ContactStage
+from rollnip.contact import NEAR_ENOUGH
 from rollnip.finite import FiniteResponse
 from rollnip.materials import Gent, Yeoh
 from rollnip.rolling import zone_solver
+from rollnip.rolling.check import surface_strain_in_nip
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -58,6 +61,32 @@ def test_beside_a_slipping_edge_there_are_six_iterations_at_most(counts):
     assert counts["meshes"] <= 20
 
 
+def test_what_the_second_order_leaves_out_is_about_the_square_of_the_strain(monkeypatch):
+    """So much the first correction by elements changes; beyond a tenth the contact stays coarse."""
+    changes, begun = [], []
+
+    def change_of_terms(*given):
+        changes.append(change(*given))
+        return changes[-1]
+
+    def second_contact(nip, model, second, coarse):
+        found = begin(nip, model, second, coarse)
+        begun.append((found[2], surface_strain_in_nip(nip, model.geometry, coarse)))
+        return found
+
+    change, begin = iteration._change_of_terms, iteration.second_contact
+    monkeypatch.setattr(iteration, "_change_of_terms", change_of_terms)
+    monkeypatch.setattr(iteration, "second_contact", second_contact)
+    for name in ("configuration-2-driven", "configuration-3-driven", "figure-5-viscoelastic-free"):
+        changes.clear()
+        rn.solve(rn.read_case(EXAMPLES / f"{name}.toml").nip)
+        stage, strain = begun[-1]
+        assert 1.0 / 3.0 < changes[0] / strain**2 < 3.0
+        is_small = strain**2 <= NEAR_ENOUGH
+        assert stage is (ContactStage.REFINED if is_small else ContactStage.COARSE)
+    assert {stage for stage, _ in begun} == {ContactStage.REFINED, ContactStage.COARSE}
+
+
 def test_edges_under_a_skin_are_not_sought_anew_while_nodes_crowd(counts):
     """It took 59 meshes when a width that crossed a power of two made the search forget them."""
     nip = rn.read_case(EXAMPLES / "figure-4-top-layer-0.2mm.toml").nip
@@ -71,7 +100,7 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
 
     def refused(nip, model, kernels, half_width):
         held_by.append(kernels.held)
-        return kernels, SimpleNamespace(settled=False), contact_stages.ContactStage.COARSE
+        return kernels, SimpleNamespace(settled=False), ContactStage.COARSE
 
     monkeypatch.setattr(contact_stages, "first_contact", refused)
     latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))

@@ -120,19 +120,25 @@ def first_contact(
     return kernels, located, ContactStage.COARSE
 
 
-def refined_with_second_order(
+def second_contact(
     nip: Nip, model: Model, second: PairKernels, coarse: MeshSolution
 ) -> tuple[PairKernels, MeshSolution, ContactStage]:
-    """Return a refined contact with the second order of a coarse one held.
+    """Return a contact with the second order of a coarse one held.
 
-    With its influence functions and its stage. Where free ends are not found on finer meshes it is
-    the coarse contact itself.
+    With its influence functions and its stage. What the second order leaves out is about the square
+    of the strain of the surface. If that is little, the contact is refined at once, otherwise it
+    stays coarse. Where it is not found, it is the coarse contact itself.
     """
     held, before = _holding_second_order(nip, model, second, coarse)
-    refined = _with_free_ends(nip, model, held, before)
-    if refined is None:
+    found: MeshSolution | None
+    if surface_strain_in_nip(nip, model.geometry, coarse) ** 2 <= NEAR_ENOUGH:
+        found, stage = _with_free_ends(nip, model, held, before), ContactStage.REFINED
+    else:
+        stage = ContactStage.COARSE
+        found = _with_moved_ends(nip, model, held, before, stage)
+    if found is None or not found.settled:
         return held, before, ContactStage.COARSE
-    return held, refined, ContactStage.REFINED
+    return held, found, stage
 
 
 def _holding_second_order(
@@ -182,7 +188,7 @@ def _change_for_better_stage(model: Model, latest: MeshSolution, stage: ContactS
         return CONVERGED
     if not latest.is_placed:
         return NEARLY_CONVERGED
-    return 1.0 / model.tolerance  # it changes by less than the first-order terms themselves
+    return NEAR_ENOUGH / model.tolerance
 
 
 def _at_better_stage(
@@ -257,29 +263,29 @@ def _at_same_stage(
         start = latest.state.states, latest.second, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, NEGLIGIBLE)
     else:
-        model_of_stage = coarse_model(model) if stage is ContactStage.COARSE else model
-        found = _with_moved_ends(nip, model_of_stage, kernels, latest)
+        found = _with_moved_ends(nip, model, kernels, latest, stage)
     return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
 def _with_moved_ends(
-    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
+    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: ContactStage
 ) -> MeshSolution:
     """Solve with the next correction, which moves the free ends of zones.
 
-    One mesh is enough if the ends are moved to where the last solution puts them. Nodes that crowd
-    at a boundary layer need ends that are placed exactly, except where friction grips a skin: there
-    the correction moves them by more than that.
+    Nodes that crowd at a boundary layer need ends that are placed exactly, except where friction
+    grips a skin: there the correction moves them by more than that.
     """
     layout, found = Layout.of(latest.zones, nip.friction), None
     if layout is not None:
-        placing = Placing(nip, model, kernels)
+        is_coarse = stage is ContactStage.COARSE
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
         search = SearchState(layout, replace(latest, second=second), misplacement=_COARSE_TOLERANCE)
         is_crowded = not grips_skin(nip) and min(map(min, latest.mesh.fine.crowding)) < 1.0
         with suppress(np.linalg.LinAlgError):
-            found = None if is_crowded else placing.solve_at_moved_ends(search)
-            found = found or placing.solve(
-                search, elements_without_crowding(latest), zones_known=True
+            found = Placing(nip, model, kernels).solve(
+                search,
+                _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
+                zones_known=True,
+                follows_correction=not is_crowded,
             )
     return replace(latest if found is None else found.before, settled=found is not None)

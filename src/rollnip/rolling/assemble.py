@@ -173,12 +173,15 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
     """
     rollers = (nip.upper, nip.lower)
     hoops = np.array([[hoop_curvature(roller, geometry)] for roller in rollers])
+    is_whole = [roller.core is None and not roller.is_rigid for roller in rollers]
+    if geometry in FINITE and all(is_whole):
+        return second_stretch(x, hoops, *u.rows)
     excess = linear_stretch(x[1:] - x[:-1], hoops, *u.rows)
     if geometry in RINGS:
         excess += rotation_stretch(x[1:] - x[:-1], hoops, *u.rows)
     if geometry in FINITE:
-        for out, roller, hoop, u_x, u_z in zip(excess, rollers, hoops, *u.rows, strict=True):
-            if roller.core is None and not roller.is_rigid:
+        for out, whole, hoop, u_x, u_z in zip(excess, is_whole, hoops, *u.rows, strict=True):
+            if whole:
                 out[:] = second_stretch(x, hoop, u_x, u_z)
     return excess
 

@@ -153,19 +153,16 @@ class EndSearch:
         )
 
     def result(self) -> SearchState:
-        """Return the state of the search with the ends placed."""
-        return replace(
-            state_at(self.next_layout, self.latest, self.state, self.misplacement),
+        """Return the state of the search with the ends at their next places."""
+        layout, state = self.next_layout, self.state
+        figures = replace(self.latest.figures, nip_width=layout.width)
+        return SearchState(
+            layout,
+            replace(self.latest, zones=layout.zones, figures=figures),
+            state.change,
+            state.expected,
+            self.misplacement,
             end_error=self.end_error,
             end_sensitivity=self.end_sensitivity if self.shows_sensitivity else None,
             jacobian=self.ends.jacobian,
         )
-
-
-def state_at(
-    proposed: Layout, latest: MeshSolution, state: SearchState, misplacement: float
-) -> SearchState:
-    """Return the state of the search with the ends of zones at their proposed places."""
-    figures = replace(latest.figures, nip_width=proposed.width)
-    latest = replace(latest, zones=proposed.zones, figures=figures)
-    return SearchState(proposed, latest, state.change, state.expected, misplacement)

@@ -18,7 +18,7 @@ from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.end_search import EndSearch, state_at
+from rollnip.rolling.end_search import EndSearch
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
@@ -39,7 +39,13 @@ class Placing:
     kernels: PairKernels
 
     def solve(
-        self, start: SearchState, count: int, *, zones_known: bool, settles_figures: bool = False
+        self,
+        start: SearchState,
+        count: int,
+        *,
+        zones_known: bool,
+        settles_figures: bool = False,
+        follows_correction: bool = False,
     ) -> SearchState | None:
         """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -54,6 +60,8 @@ class Placing:
         settles_figures : whether to place the ends so exactly that the figures no longer change
             with them. Two meshes show how figures depend on ends, or one if the previous size has
             shown it.
+        follows_correction : whether a correction held has moved the ends and will move them again,
+            on meshes like the last one. They need not be placed then, see `_have_followed`.
 
         Returns
         -------
@@ -62,10 +70,15 @@ class Placing:
         """
         # The second order held so far is from a coarser mesh: each size evaluates its own.
         search = EndSearch.of(self.solver, replace(start, expected=inf), count)
+        if follows_correction:
+            fine = start.before.mesh.fine
+            search.shape = np.array(fine.elements), fine.crowding
         most_meshes = self._most_meshes(start.layout)
         without_slip: SearchState | None = None
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
             search.solve_mesh()
+            if follows_correction and self._have_followed(search):
+                return search.result()
             # The figures show errors of ends only with the zones of the previous size.
             same_zones = settles_figures and search.layout.is_like(start.layout)
             is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
@@ -90,36 +103,6 @@ class Placing:
                 return search.result()
         return without_slip
 
-    def solve_at_moved_ends(self, state: SearchState) -> SearchState | None:
-        """Return the solution with the ends moved to where the last solution put them.
-
-        It takes one mesh like the last one if the ends hardly move, otherwise two. The ends need
-        not be placed, but all of them lie within the tolerance of where the solution puts them: a
-        transition that is misplaced by more has shears beyond the bound beside it, and the
-        correction of such shears would move it again.
-
-        Returns
-        -------
-        None where there is no such solution, or it calls for other zones.
-        """
-        fine = state.before.mesh.fine
-        shape = np.array(fine.elements), fine.crowding
-        for _ in range(2):
-            layout = state.layout
-            latest, proposed = self.solver.solve(state, shape)
-            moved = proposed.distance(layout)
-            is_placed = self._are_ends_placed(layout, moved, zones_known=True)
-            if (
-                not proposed.is_proper
-                or self.search.changed_states(latest, layout, checks_contact=is_placed) is not None
-            ):
-                return None
-            misplacement = proposed.distance(layout, transitions_count=1.0)
-            state = state_at(proposed, latest, state, misplacement)
-            if misplacement <= self.model.tolerance:
-                return state
-        return None
-
     @cached_property
     def solver(self) -> ZoneSolver:
         """The solver with given zones."""
@@ -129,6 +112,21 @@ class Placing:
     def search(self) -> ZoneSearch:
         """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model)
+
+    def _have_followed(self, search: EndSearch) -> bool:
+        """Return whether the ends on a mesh have followed a correction that may still change.
+
+        All of them lie within the tolerance of where the solution puts them: a transition that is
+        misplaced by more has shears beyond the bound beside it, and the correction of such shears
+        would move it again. The solution must call for no other zones.
+        """
+        layout, proposed = search.layout, search.proposed
+        distance = proposed.distance(layout, transitions_count=1.0)
+        if not (proposed.is_proper and distance <= self.model.tolerance):
+            return False
+        is_placed = self._are_ends_placed(layout, search.misplacement, zones_known=True)
+        wanted = self.search.changed_states(search.latest, layout, checks_contact=is_placed)
+        return wanted is None
 
     def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
         """Return whether the ends on a mesh are placed, and nothing in its solution denies it.

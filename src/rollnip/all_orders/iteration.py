@@ -188,7 +188,8 @@ def _iterate(
             return accelerated, latest
         was, convergence = stage, Convergence(change, to_come if is_full_load and not deep else inf)
         found, stage = next_contact(nip, model, accelerated, latest, stage, convergence)
-        if not found.settled and stage is not ContactStage.FINE and restarts < _MOST_RESTARTS:
+        may_restart = best.found is None and restarts < _MOST_RESTARTS
+        if not found.settled and stage is not ContactStage.FINE and may_restart:
             restarts += 1
             kernels, found, stage = restart(nip, model, (accelerated, updated), latest)
         if not found.settled:

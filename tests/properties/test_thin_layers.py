@@ -1,6 +1,7 @@
 """Thin layers: error claims under thin tops, and thin incompressible coverings that converge."""
 
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -217,6 +218,16 @@ def test_slip_at_trailing_edges_that_changes_nothing_is_left_out(poisson, thickn
     solution = solved(thin_foam(poisson, thickness, 0.7), geometry=geometry)
     assert solution.converged
     assert solution.solver.elements < 150
+
+
+@pytest.mark.parametrize("load", [2.0, 2.5, 3.5, 4.0])
+def test_waves_of_a_correction_take_no_finer_meshes(load):
+    """A foam follows the waves of its own correction at finite strain: they took 740 elements."""
+    solution = solved(
+        replace(thin_foam(0.0, 0.42, 0.7), normal=rn.LineLoad(load)), geometry="finite"
+    )
+    assert solution.converged
+    assert solution.solver.elements < 250
 
 
 @pytest.mark.parametrize("geometry", ["linear", "curved"])

@@ -14,7 +14,7 @@ import numpy as np
 
 from rollnip._largest import largest
 from rollnip.contact import Layout, cubic_error, more_elements
-from rollnip.model import Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.estimates import (
@@ -91,6 +91,7 @@ def _refined(
     best: MeshSolution | None = None
     is_repeated = False  # whether this size is solved a second time
     last_ratio = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
+    roughness = inf
     while count <= most:
         settles_figures = bool(history)  # from the second size on the error may meet the tolerance
         placed = placing.solve(
@@ -105,7 +106,7 @@ def _refined(
             history.clear()  # changes between different zones are no measure of the error
         state, latest = placed, placed.before
         wanted, count = count, elements_without_crowding(latest)
-        roughness = _roughness(nip, model, latest)
+        roughness = _roughness(nip, model, latest, roughness)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
             count, zones_known = _next_count(count, roughness, model.tolerance), True
@@ -151,11 +152,13 @@ def elements_without_crowding(latest: MeshSolution) -> int:
     return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
-def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
+def _roughness(nip: Nip, model: Model, latest: MeshSolution, before: float) -> float:
     """Return the interpolation error of the tractions, over what is allowed.
 
     Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong. Tractions
-    that negligible slip covers do not count: without that slip they are singular.
+    that negligible slip covers do not count: without that slip they are singular. At finite strain
+    the correction held has waves about as short as elements. Where a finer mesh shows more of them
+    than the one ``before``, it is no measure, and 1.
     """
     x, fine = latest.mesh.inner, latest.mesh.fine
     covered = np.zeros(x.size, dtype=bool)
@@ -170,4 +173,5 @@ def _roughness(nip: Nip, model: Model, latest: MeshSolution) -> float:
     errors = [cubic_error(pressure, x, *zones) / (peak * width)]
     if most > 0.0:
         errors.append(cubic_error(shear, x, *zones) / (most * width))
-    return largest(*errors) / (NEGLIGIBLE * model.tolerance)
+    roughness = largest(*errors) / (NEGLIGIBLE * model.tolerance)
+    return 1.0 if model.geometry in FINITE and roughness > before else roughness

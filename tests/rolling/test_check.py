@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import rollnip as rn
 from rollnip._results.profiles import fine_points, slip_velocity, surface_strain
 from rollnip.contact import State
 from rollnip.rolling import fields_at
 from rollnip.rolling.check import residual
+from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.surfaces import pressure_work
 
@@ -194,3 +196,20 @@ def test_pressure_work():
     displacement = nodes[1:] ** 2
     expected = 1.5 * 1.25 + 2.5 * 6.75 + 2.0 * 7.0
     assert pressure_work(traction, displacement) == pytest.approx(expected, rel=1e-14)
+
+
+def test_slip_left_out_that_matters_is_not_overlooked():
+    """With a prescribed creepage no error of it is claimed: the check alone can tell."""
+    foam = rn.Roller(radius=200.0, layers=[rn.Layer(5.0, rn.Elastic(modulus=1.26, poisson=0.2))])
+    sticking = rn.Nip(
+        upper=foam, lower=rn.Roller(radius=93.0), normal=rn.LineLoad(1.7), friction=5.0
+    )
+    model = rn.Model(geometry="linear")
+    solution = rn.solve(sticking, model)
+    final, kernels = solution.final, solution.kernels
+    given = replace(sticking, tangential=rn.Creepage(solution.creepage))
+    assert with_residual(given, model, kernels, final).residual <= 1e-3
+    slippery = replace(final, problem=replace(final.problem, friction=0.3))
+    assert slippery.slip_left_out
+    checked = with_residual(replace(given, friction=0.3), model, kernels, slippery)
+    assert checked.residual > 0.05

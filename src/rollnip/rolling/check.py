@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rollnip._largest import largest
-from rollnip.contact import ContactZone, State
+from rollnip.contact import ContactZone, State, TurningSlip
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
@@ -103,7 +104,13 @@ def _fields(
     )
 
 
-def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float) -> float:
+def residual(
+    nip: Nip,
+    fields: PairFields,
+    final: MeshSolution,
+    shortest: float,
+    left_out: Sequence[TurningSlip] = (),
+) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
     It is the largest of: penetration over the approach; p times gap over peak pressure and
@@ -111,7 +118,7 @@ def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float)
     surfaces over |xi| times the nip width; slip in the direction of its own shear; errors of load
     and traction. The traction bound is not checked within ``shortest`` [mm] of the ends of zones:
     slip zones shorter than that are left out, and stick without them has an infinite shear at its
-    end. Where slip by turning is left out at an edge, neither that bound nor drift is checked.
+    end. What the slip ``left_out`` at edges covers is checked neither for that bound nor for drift.
     """
     figures = final.figures
     peak = figures.peak_pressure
@@ -123,7 +130,7 @@ def residual(nip: Nip, fields: PairFields, final: MeshSolution, shortest: float)
         _load_error(nip, final),
     ]
     if nip.friction > 0.0:
-        parts += _friction_errors(nip, fields, final, shortest)
+        parts += _friction_errors(nip, fields, final, shortest, left_out)
     return largest(0.0, *parts)
 
 
@@ -143,7 +150,11 @@ def _load_error(nip: Nip, final: MeshSolution) -> float:
 
 
 def _friction_errors(
-    nip: Nip, fields: PairFields, final: MeshSolution, shortest: float
+    nip: Nip,
+    fields: PairFields,
+    final: MeshSolution,
+    shortest: float,
+    left_out: Sequence[TurningSlip],
 ) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
@@ -151,7 +162,7 @@ def _friction_errors(
     ends = np.array([end for zone in final.zones for end in (zone.start, zone.stop)])
     is_far = np.min(np.abs(final.x[:, None] - ends), axis=1, initial=np.inf) > shortest
     every_creep = fields.creep.copy()
-    for slip in final.slip_left_out:
+    for slip in left_out:
         is_far &= ~slip.covers(final.x)
         every_creep[slip.covers(fields.x[1:]) | slip.covers(fields.x[:-1])] = 0.0
     allowed = creepage_scale(nip, figures) * figures.nip_width

@@ -21,7 +21,7 @@ from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import shortest_zone
+from rollnip.rolling.lengths import shortest_zone, tolerable_slip
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
@@ -147,6 +147,8 @@ def with_residual(
 ) -> MeshSolution:
     """Return a solution with its residual: of the contact conditions, on more points.
 
+    They are not checked where slip is left out that changes the creepage within its tolerance.
+
     Where the second order follows the tractions, the mesh of the result holds that of its own
     tractions. The change of the second-order terms that this makes counts for `geometry_change`.
     """
@@ -156,4 +158,5 @@ def with_residual(
         latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
     shortest = shortest_zone(nip, model, latest.figures.nip_width)
-    return replace(latest, residual=residual(nip, fields, latest, shortest))
+    left_out = tolerable_slip(nip, model, latest)
+    return replace(latest, residual=residual(nip, fields, latest, shortest, left_out))

@@ -45,19 +45,28 @@ def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:
 
 
 def is_negligible(nip: Nip, model: Model, figures: Figures, slip: TurningSlip) -> bool:
-    """Return whether slip at an edge need not be looked for, as figures hardly depend on it.
+    """Return whether slip that is left out need not be looked for, as figures hardly depend on it.
 
     It changes the creepage by a quarter of its tolerance at most; the rest is left to the estimated
     errors.
     """
-    least = 0.25 * model.tolerance * creepage_scale(nip, figures)
-    return creepage_by_slip(nip, figures, slip) <= least
+    return _changes_little(nip, figures, slip, 0.25 * model.tolerance)
 
 
 def negligible_slip(nip: Nip, model: Model, latest: MeshSolution) -> list[TurningSlip]:
-    """Return the slip zones left out by a solution that need not be looked for."""
+    """Return the slip left out by a solution that need not be looked for."""
     left_out = latest.slip_left_out
     return [slip for slip in left_out if is_negligible(nip, model, latest.figures, slip)]
+
+
+def tolerable_slip(nip: Nip, model: Model, latest: MeshSolution) -> list[TurningSlip]:
+    """Return the slip left out by a solution that changes its creepage within the tolerance."""
+    figures, left_out = latest.figures, latest.slip_left_out
+    return [slip for slip in left_out if _changes_little(nip, figures, slip, model.tolerance)]
+
+
+def _changes_little(nip: Nip, figures: Figures, slip: TurningSlip, most: float) -> bool:
+    return creepage_by_slip(nip, figures, slip) <= most * creepage_scale(nip, figures)
 
 
 def boundary_layer(nip: Nip) -> float:

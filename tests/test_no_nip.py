@@ -170,7 +170,7 @@ def test_finite_strain_counts_a_soft_layer_as_it_is():
     assert pressed[0] == pytest.approx(0.463, abs=0.005)
     deep = rn.solve(replace(_with_layers(layers, 4.0), friction=0.0))
     assert not deep.converged
-    assert re.search("0.5 mm thick, is pressed in by 5[12] %", deep.status)  # a coarse contact
+    assert "0.5 mm thick, is pressed in by 51 %" in deep.status  # judged on a coarse contact
 
 
 def test_plies_of_one_layer_count_as_it_does():

@@ -108,7 +108,8 @@ def first_contact(
         if layout is not None:
             held, before = kernels, located
             if second is not None and (nip.is_viscoelastic or layout.states.size > 1):
-                held, before = _holding_second_order(nip, model, second(), located)
+                strain = surface_strain_in_nip(nip, model.geometry, located)
+                held, before = _holding_second_order(second(), located, strain)
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
                 found = Placing(nip, coarse, held).solve(start, _COARSE_ELEMENTS, zones_known=False)
@@ -121,17 +122,17 @@ def first_contact(
 
 
 def second_contact(
-    nip: Nip, model: Model, second: PairKernels, coarse: MeshSolution
+    nip: Nip, model: Model, second: PairKernels, coarse: MeshSolution, strain: float
 ) -> tuple[PairKernels, MeshSolution, ContactStage]:
-    """Return a contact with the second order of a coarse one held.
+    """Return a contact with the second order of a coarse one held, with its stage.
 
-    With its influence functions and its stage. What the second order leaves out is about the square
-    of the strain of the surface. If that is little, the contact is refined at once, otherwise it
-    stays coarse. Where it is not found, it is the coarse contact itself.
+    And the influence functions that hold it. What the second order leaves out is about the square
+    of the ``strain`` of the coarse contact's surface. If that is little, the contact is refined at
+    once, otherwise it stays coarse. Where it is not found, it is the coarse contact itself.
     """
-    held, before = _holding_second_order(nip, model, second, coarse)
+    held, before = _holding_second_order(second, coarse, strain)
     found: MeshSolution | None
-    if surface_strain_in_nip(nip, model.geometry, coarse) ** 2 <= NEAR_ENOUGH:
+    if strain**2 <= NEAR_ENOUGH:
         found, stage = _with_free_ends(nip, model, held, before), ContactStage.REFINED
     else:
         stage = ContactStage.COARSE
@@ -142,13 +143,13 @@ def second_contact(
 
 
 def _holding_second_order(
-    nip: Nip, model: Model, second: PairKernels, latest: MeshSolution
+    second: PairKernels, latest: MeshSolution, strain: float
 ) -> tuple[PairKernels, MeshSolution]:
     """Return influence functions that hold the second order of a solution, and it with them.
 
-    Waves of the second order beyond the cut-off at the strain of the solution are left out.
+    Waves of the second order beyond the cut-off at the ``strain`` of its surface are left out.
     """
-    kept = cut_factor_at(surface_strain_in_nip(nip, model.geometry, latest))
+    kept = cut_factor_at(strain)
     half_width = 0.5 * latest.figures.nip_width / kept
     upper, lower = (
         None if response is None else response.fitted(half_width)

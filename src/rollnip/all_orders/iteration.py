@@ -106,7 +106,7 @@ def refine_all_orders(
         if found_nearby is not None:
             return found_nearby
         if stage is ContactStage.COARSE and start is not kernels:
-            start, latest, stage = second_contact(nip, model, second(), latest)
+            start, latest, stage = second_contact(nip, model, second(), latest, strain)
         for cut_factor in CUT_FACTORS:
             correction = PairCorrection.of(nip, kernels, half_width, strain, cut_factor)
             found = _iterate(nip, model, (start, latest), correction, stage, is_too_deep)

@@ -157,8 +157,8 @@ def _roughness(nip: Nip, model: Model, latest: MeshSolution, before: float) -> f
 
     Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong. Tractions
     that negligible slip covers do not count: without that slip they are singular. At finite strain
-    the correction held has waves about as short as elements. Where a finer mesh shows more of them
-    than the one ``before``, it is no measure, and 1.
+    the correction held has waves about as short as elements. A finer mesh may show more of them
+    than the one ``before``: then the roughness tells nothing, and is given as 1, just allowed.
     """
     x, fine = latest.mesh.inner, latest.mesh.fine
     covered = np.zeros(x.size, dtype=bool)

@@ -147,7 +147,8 @@ def with_residual(
 ) -> MeshSolution:
     """Return a solution with its residual: of the contact conditions, on more points.
 
-    They are not checked where slip is left out that changes the creepage within its tolerance.
+    The traction bound and drift are not checked where slip is left out that changes the creepage
+    within its tolerance.
 
     Where the second order follows the tractions, the mesh of the result holds that of its own
     tractions. The change of the second-order terms that this makes counts for `geometry_change`.

@@ -24,10 +24,19 @@ from math import atan, atanh, pi, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact.mesh import PIECES_PER_ELEMENT, Array, cubic_matrix, with_means
+from rollnip.contact.mesh import (
+    MEAN_POINTS,
+    MEAN_WEIGHTS,
+    PIECES_PER_ELEMENT,
+    Array,
+    cubic_matrix,
+    with_means,
+)
 from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def exponent_at_leading_edge(state: int, beta: float, friction: float) -> complex:
@@ -86,11 +95,10 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
     by_unit = with_means(cubic_matrix(t, unit.size) @ unit, _means_of_cubics(unit, t))
     # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
-    points, weights = np.polynomial.legendre.leggauss(16)
-    x = 0.5 * (1.0 + points)
+    x = 0.5 * (1.0 + _POINTS)
     lengths = np.diff(t)[:, None]
     inside = t[:-1, None] + lengths * (x * x * (3.0 - 2.0 * x))
-    s, ds = inside**2, 2.0 * inside * lengths * (3.0 * weights * x * (1.0 - x))
+    s, ds = inside**2, 2.0 * inside * lengths * (3.0 * _WEIGHTS * x * (1.0 - x))
     left = (np.interp(s, t * t, acting) - _root(inside, kappa)) * ds
     kernel = np.log(np.abs(1.0 - s)) - np.log(s)
     along = (left * kernel).sum()
@@ -112,9 +120,8 @@ def _means_of_root(t: Array, kappa: complex) -> ComplexArray:
 
 def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
     """Return the means over x between ``t`` of cubics through ``nodes``, x growing as t^2."""
-    points, weights = np.polynomial.legendre.leggauss(4)
-    inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
-    weights = weights * inside  # dx is 2 t dt
+    inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + MEAN_POINTS)
+    weights = MEAN_WEIGHTS * inside  # dx is 2 t dt
     return np.asarray(
         (weights * (cubic_matrix(inside, nodes.size) @ nodes)).sum(1) / weights.sum(1)
     )

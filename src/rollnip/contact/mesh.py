@@ -28,6 +28,9 @@ PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
+# Gauss points on [-1, 1] and their weights: as many as a cubic has nodes are exact for a cubic
+# times a slope dx/ds of the fourth degree, which a piece is short enough for.
+MEAN_POINTS, MEAN_WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,11 +247,9 @@ def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array
     """
     finer = np.arange(pieces * n + 1) / pieces
     values = cubic_matrix(finer, n + 1)
-    # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
-    # exact for a cubic times a slope dx/ds of the fourth degree, which a piece is short enough for.
-    points, weights = np.polynomial.legendre.leggauss(4)
-    inside = finer[:-1, None] + 0.5 * (1.0 + points) / pieces
-    slope = weights * _places(inside / n, ratio)[1]
+    # Means over x, by Gauss quadrature in the node index.
+    inside = finer[:-1, None] + 0.5 * (1.0 + MEAN_POINTS) / pieces
+    slope = MEAN_WEIGHTS * _places(inside / n, ratio)[1]
     means = (slope[..., None] * cubic_matrix(inside, n + 1)).sum(axis=1)
     means /= slope.sum(axis=1)[:, None]
     acting = with_means(values, means)

@@ -151,23 +151,6 @@ def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
     assert whole.with_gap(0.5, 1.5) is None
 
 
-def test_zones_shorter_than_what_counts_are_left_out_shortest_first():
-    breaks, states = [0.0, 0.01, 0.03, 5.0, 5.05, 5.055, 9.0], [PLUS, STICK, PLUS, STICK, MINUS]
-    whole = Layout(np.array(breaks), np.array([*states, STICK], dtype=np.int8))
-    none = Layout(np.array([0.0, 9.0]), np.array([State.FREE], dtype=np.int8))
-    same = whole.without_short_zones(0.004, none, keeps_stick=True)
-    assert same.breaks.tolist() == breaks
-    assert whole.without_short_zones(0.02, none, keeps_stick=True).breaks.tolist() == [
-        0.0,
-        0.03,
-        5.0,
-        9.0,
-    ]
-    fewer = whole.without_short_zones(0.1, none, keeps_stick=True)
-    assert fewer.states.tolist() == [PLUS, STICK]
-    assert fewer.breaks.tolist() == [0.0, 5.0, 9.0]
-
-
 @pytest.mark.parametrize("off", [(-0.2, 0.2), (0.2, 0.1), (0.0, -0.3), (1e-3, 0.0)])
 def test_edges_are_found_again(off):
     """Newton's method: the distance is squared from mesh to mesh, down to that of the elements."""
@@ -180,14 +163,6 @@ def test_edges_are_found_again(off):
     assert distances[-1] < 1e-4
     assert distances[0] < 1.5 * max(map(abs, off)) ** 2 + 3e-4
     assert distances[-1] == pytest.approx(distances[-2], abs=1e-6)
-
-
-@pytest.mark.parametrize("half_width", [0.5, 0.8, 0.99, 1.01, 1.2, 1.5, 2.0])
-def test_inverse_square_root_at_an_edge_that_is_far_off(half_width):
-    """Exact: p = ((1 + a^2)/2 - x^2)/(pi sqrt(a^2 - x^2)), whose root may be missing altogether."""
-    problem, layout, state = hertz([-half_width, half_width], 48)
-    exact = (1.0 - half_width**2) / (np.pi * np.sqrt(2.0 * half_width))
-    np.testing.assert_allclose(layout.singular(problem.x, state), [-exact, exact], rtol=0.01)
 
 
 @pytest.mark.parametrize("off", [0.1, -0.1])

@@ -57,21 +57,15 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
 
 
 @lru_cache(maxsize=128)
-def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
+def left_out_of_tractions(kappa: complex) -> ComplexArray:
     """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
 
     That is the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
-    `Subdivision`), adjusted to have the means of that difference over the pieces.
-
-    Parameters
-    ----------
-    pieces : linear pieces of an element.
-
-    Returns
-    -------
-    (4 pieces + 1,) at the finer nodes from the edge inwards.
+    `Subdivision`), adjusted to have the means of that difference over the pieces. It is given at
+    the finer nodes of the first four elements from the edge inwards; beyond, the cubics are good
+    enough.
     """
-    t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
+    t = np.arange(4 * PIECES_PER_ELEMENT + 1) / PIECES_PER_ELEMENT
     nodes = _root(np.arange(6.0), kappa)
     values = _root(t, kappa) - cubic_matrix(t, nodes.size) @ nodes
     out = with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
@@ -80,7 +74,7 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
 
 
 @lru_cache(maxsize=128)
-def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> complex:
+def left_out_of_creep(kappa: complex) -> complex:
     """Return rho, for the creep that linear pieces make in the edge element although all stick.
 
     At a leading edge up to which the surfaces stick that creep is Im[(p + i q) rho] times what a
@@ -90,7 +84,7 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     where beta is -tanh(pi Im kappa).
     """
     count = 16  # elements: the further from the edge, the less they matter
-    t = np.arange(count * pieces + 1) / pieces
+    t = np.arange(count * PIECES_PER_ELEMENT + 1) / PIECES_PER_ELEMENT
     unit = np.eye(count + 2, dtype=complex)[1]
     acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
     by_unit = with_means(cubic_matrix(t, unit.size) @ unit, _means_of_cubics(unit, t))
@@ -102,7 +96,7 @@ def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> compl
     left = (np.interp(s, t * t, acting) - _root(inside, kappa)) * ds
     kernel = np.log(np.abs(1.0 - s)) - np.log(s)
     along = (left * kernel).sum()
-    across = tanh(pi * kappa.imag) * pi * left[:pieces].sum()
+    across = tanh(pi * kappa.imag) * pi * left[:PIECES_PER_ELEMENT].sum()
     return complex((along + 1j * across) / (np.interp(s, t * t, by_unit) * ds * kernel).sum())
 
 

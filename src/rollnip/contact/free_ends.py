@@ -20,7 +20,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rollnip.contact.edge_exponents import exponent_at_leading_edge
-from rollnip.contact.ends import proposed_move, singular_part
+from rollnip.contact.ends import proposed_move
 from rollnip.contact.features import ContactZone, with_stick_between, zones_between
 from rollnip.contact.problem import (
     FREE,
@@ -232,27 +232,6 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
-    def without_short_zones(self, least: float, known: Layout, *, keeps_stick: bool) -> Layout:
-        """Return the layout without zones shorter than ``least`` [mm], removing the shortest first.
-
-        It keeps those that overlap a zone of ``known`` in the same state, and stops at the first
-        zone that cannot be removed, see `without`.
-        """
-        layout = self
-        while True:
-            lengths = np.where(layout._overlaps(known), np.inf, layout.lengths)
-            shortest = int(np.argmin(lengths))
-            fewer = layout.without(shortest, keeps_stick=keeps_stick)
-            if fewer is None or lengths[shortest] >= least:
-                return layout
-            layout = fewer
-
-    def _overlaps(self, other: Layout) -> Mask:
-        """Return which zones overlap a zone of ``other`` in the same state."""
-        starts = np.maximum(self.breaks[:-1, None], other.breaks[:-1])
-        stops = np.minimum(self.breaks[1:, None], other.breaks[1:])
-        return np.asarray(((self.states[:, None] == other.states) & (starts < stops)).any(axis=1))
-
     @property
     def reversals(self) -> list[int]:
         """Numbers of the zones of stick where slip changes its sign, shorter than that slip."""
@@ -382,12 +361,3 @@ class Layout:
             step = proposed_move(x, state, ends[number], inwards, weight, kappa, furthest)
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
-
-    def singular(self, x: Array, state: ContactState) -> Array:
-        """Return the amplitudes of the inverse square roots in the pressure at both edges, (2,).
-
-        Each is the factor of the square root at that edge times the move that the edge needs,
-        positive towards the leading edge [MPa sqrt(mm)].
-        """
-        ends = zip(self.ends(x)[[0, -1]].tolist(), (1, -1), strict=True)
-        return np.array([inwards * singular_part(x, state, end, inwards) for end, inwards in ends])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, inf, pi, sqrt
+from math import pi, sqrt
 from typing import TypeVar
 
 import numpy as np
@@ -24,8 +24,7 @@ FEWEST_ELEMENTS_OF_A_ZONE = 6
 # only where every zone is refined.
 LEAST_SHARE_OF_A_ZONE = 0.08
 _OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
-PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
-_MOST_NODE_VALUES = 500_000  # bounds memory: pieces per element times the square of the nodes
+PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
 # Gauss points on [-1, 1] and their weights: as many as a cubic has nodes are exact for a cubic
@@ -58,7 +57,6 @@ class Subdivision:
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
-    pieces : number of linear pieces of an element, except those beyond both edges, which have one.
     """
 
     nodes: Array
@@ -69,7 +67,6 @@ class Subdivision:
     means: Array | None = None
     edges: tuple[int, ...] = ()
     exponents: tuple[complex, ...] = ()
-    pieces: int = 1
 
     @property
     def inner_breaks(self) -> list[int]:
@@ -85,9 +82,10 @@ class Subdivision:
 
     def sums(self, pieces: Array) -> Array:
         """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
-        out = pieces[:: self.pieces].copy()
-        for part in range(1, self.pieces):
-            out[:-1] += pieces[part : -1 : self.pieces]
+        if self.values is None:
+            return pieces
+        out = pieces[::2].copy()
+        out[:-1] += pieces[1:-1:2]
         return out
 
 
@@ -95,7 +93,6 @@ def subdivided(
     nodes: Array,
     elements: Indices,
     crowding: Crowding | None = None,
-    shortest: float = inf,
     edges: Sequence[int] = (),
     exponents: tuple[complex, ...] = (),
 ) -> Subdivision:
@@ -108,10 +105,6 @@ def subdivided(
     nodes : (N+1,) from `cosine_nodes` [mm].
     elements : in each zone, three or more; no cubic extends across a break.
     crowding : of each zone, as given to `cosine_nodes`.
-    shortest :
-        largest length of the pieces [mm], unless they become too many. The surface of a thin
-        incompressible layer moves as the second derivative of the pressure, which linear pieces
-        longer than the layer is thick cannot represent.
     edges :
         indices in nodes[1:-1] as in `Subdivision`; by default the first and the last.
     exponents :
@@ -119,16 +112,13 @@ def subdivided(
     """
     counts = tuple(elements.tolist())
     crowding = uncrowded(len(counts)) if crowding is None else crowding
-    longest = float((nodes[1:] - nodes[:-1]).max())
-    most = _MOST_NODE_VALUES // nodes.size**2
-    parts = max(min(ceil(longest / shortest), most), PIECES_PER_ELEMENT)
-    values, acting, means = _cubics(counts, crowding, parts)
-    finer = _cosine_values(tuple(parts * n for n in counts), crowding)
+    values, acting, means = _cubics(counts, crowding)
+    finer = _cosine_values(tuple(PIECES_PER_ELEMENT * n for n in counts), crowding)
     finer = finer @ nodes[np.cumsum([1, *counts])]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
     exponents = exponents or (0j,) * len(edges)
-    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, parts)
+    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents)
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
@@ -216,11 +206,9 @@ def cubic_error(
 
 
 @lru_cache(maxsize=8)  # meshes of one size that differ only in the places of their breaks share it
-def _cubics(
-    elements: tuple[int, ...], crowding: Crowding, pieces: int
-) -> tuple[Array, Array, Array]:
+def _cubics(elements: tuple[int, ...], crowding: Crowding) -> tuple[Array, Array, Array]:
     """Return the matrices values, acting and means of a `Subdivision`."""
-    count = sum(elements)
+    count, pieces = sum(elements), PIECES_PER_ELEMENT
     values, acting = np.zeros((2, pieces * count + 3, count + 3))
     means = np.zeros((pieces * count + 1, count + 2))
     for matrix in (values, acting):
@@ -230,7 +218,7 @@ def _cubics(
     for n, ratio in zip(elements, crowding, strict=True):
         rows = row + pieces * n
         at_nodes = np.s_[row + 1 : rows + 2, column + 1 : column + n + 2]
-        zone = _zone_cubics(n, ratio, pieces)
+        zone = _zone_cubics(n, ratio)
         values[at_nodes], acting[at_nodes], means[row:rows, column : column + n + 1] = zone
         row, column = rows, column + n
     for matrix in (values, acting, means):
@@ -239,12 +227,13 @@ def _cubics(
 
 
 @lru_cache(maxsize=128)
-def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array, Array, Array]:
+def _zone_cubics(n: int, ratio: tuple[float, float]) -> tuple[Array, Array, Array]:
     """Return the block of one zone of ``n`` elements in the matrices of `_cubics`.
 
     That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
     between these, (pieces n, n + 1).
     """
+    pieces = PIECES_PER_ELEMENT
     finer = np.arange(pieces * n + 1) / pieces
     values = cubic_matrix(finer, n + 1)
     # Means over x, by Gauss quadrature in the node index.

@@ -34,7 +34,6 @@ class EndSearch:
     last : zones and figures of the last mesh of this shape; None: there is none.
     meshes : number of meshes with the current zones.
     tried : keys of zones tried before.
-    shows_sensitivity : whether ``end_sensitivity`` may be used for the next mesh size.
     latest : the solution on the last mesh.
     proposed : its zones with the ends where the solution puts them.
     next_layout : its zones with the ends at the next places to try.
@@ -51,7 +50,6 @@ class EndSearch:
     last: tuple[Layout, Figures] | None = None
     meshes: int = 0
     tried: set[bytes] = field(default_factory=set)
-    shows_sensitivity: bool = True
     latest: MeshSolution = field(init=False)
     proposed: Layout = field(init=False)
     next_layout: Layout = field(init=False)
@@ -87,11 +85,9 @@ class EndSearch:
         self.latest, self.proposed = solver.solve(self.state, shape)
         self.misplacement = self.proposed.distance(layout)
         self.nearest = min(self.nearest, self.misplacement)
+        only_ends_move = self.latest.settled and self.is_quiet
         self.next_layout = self.ends.next_layout(
-            layout,
-            self.proposed,
-            solver.singular(self.latest, layout),
-            only_ends_move=self.latest.settled and self.is_quiet,
+            layout, self.proposed, only_ends_move=only_ends_move
         )
         self._learn_sensitivity()
 
@@ -136,13 +132,11 @@ class EndSearch:
             None,
         )
 
-    def change_zones(self, other: SearchState, *, was_placed: bool) -> None:
-        """Go on with other zones; ``was_placed``: whether the ends of the last ones were placed."""
+    def change_zones(self, other: SearchState) -> None:
+        """Go on with other zones."""
         self.tried.add(other.layout.key)
         self.ends = Secants(self.nearest * self.layout.width)
         self.state, self.shape = self.solver.renewed(other), None
-        # Ends that have been placed before hardly move: their effect cannot be measured.
-        self.shows_sensitivity = self.shows_sensitivity and not was_placed
         self.end_sensitivity, self.meshes = None, 0
 
     def move_ends(self) -> None:
@@ -163,6 +157,6 @@ class EndSearch:
             state.expected,
             self.misplacement,
             end_error=self.end_error,
-            end_sensitivity=self.end_sensitivity if self.shows_sensitivity else None,
+            end_sensitivity=self.end_sensitivity,
             jacobian=self.ends.jacobian,
         )

@@ -89,8 +89,6 @@ def _refined(
     enough = ENOUGH_FOR_ZONES * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     most = _MOST_TIMES_FIRST * max(enough, count)
     best: MeshSolution | None = None
-    is_repeated = False  # whether this size is solved a second time
-    last_ratio = _FIRST_ERROR_RATIO  # error, residual or roughness, over what is allowed
     roughness = inf
     while count <= most:
         settles_figures = bool(history)  # from the second size on the error may meet the tolerance
@@ -105,14 +103,12 @@ def _refined(
         if not placed.layout.is_like(state.layout):
             history.clear()  # changes between different zones are no measure of the error
         state, latest = placed, placed.before
-        wanted, count = count, elements_without_crowding(latest)
+        count = elements_without_crowding(latest)
         roughness = _roughness(nip, model, latest, roughness)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
             count, zones_known = _next_count(count, roughness, model.tolerance), True
             continue
-        if is_repeated and history:
-            history.pop()
         make_secondary = partial(secondary_figures, nip, model.geometry, latest)
         history.append(RefinementLevel(count, latest.figures, state.layout.breaks, make_secondary))
         best = latest = with_errors(nip, latest, history, state.end_error)
@@ -123,15 +119,11 @@ def _refined(
             if final.residual <= model.tolerance:
                 return with_secondary_errors(nip, final, history)
             ratio = final.residual / model.tolerance
-            if not is_repeated:
-                is_repeated, count = True, wanted  # once more, with the ends where they moved to
-                continue
         excess = largest(ratio, roughness)
         if isnan(excess):
             break  # finer meshes do not help a solution that is no number
-        last_ratio = excess if excess < inf else min(last_ratio, _FIRST_ERROR_RATIO)
-        is_repeated, least = False, _next_count(count, 1.0, model.tolerance)
-        count = max(min(_next_count(count, last_ratio, model.tolerance), int(most)), least)
+        wanted = _next_count(count, excess if excess < inf else _FIRST_ERROR_RATIO, model.tolerance)
+        count = max(min(wanted, int(most)), _next_count(count, 1.0, model.tolerance))
     return None if best is None or len(history) < 2 else with_secondary_errors(nip, best, history)
 
 

@@ -65,8 +65,7 @@ class Placing:
 
         Returns
         -------
-        None where no such solution is found. A short slip zone at an edge that cannot be placed is
-        left out: its effect counts in the estimated errors.
+        None where no such solution is found.
         """
         # The second order held so far is from a coarser mesh: each size evaluates its own.
         search = EndSearch.of(self.solver, replace(start, expected=inf), count)
@@ -74,7 +73,6 @@ class Placing:
             fine = start.before.mesh.fine
             search.shape = np.array(fine.elements), fine.crowding
         most_meshes = self._most_meshes(start.layout)
-        without_slip: SearchState | None = None
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
             search.solve_mesh()
             if follows_correction and self._have_followed(search):
@@ -92,16 +90,14 @@ class Placing:
             )
             other = search.untried(others)
             if other is not None:
-                if other.may_be_left_out:
-                    without_slip = search.result()
-                search.change_zones(other, was_placed=is_placed)
+                search.change_zones(other)
             elif not is_placed:
                 search.move_ends()
             elif self.search.has_tension(search.latest):
                 break
             else:
                 return search.result()
-        return without_slip
+        return None
 
     @cached_property
     def solver(self) -> ZoneSolver:

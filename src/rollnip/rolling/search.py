@@ -48,7 +48,6 @@ class SearchState:
     end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
         known.
     jacobian : of the moves that ends propose, see `Secants`; None: not known.
-    may_be_left_out : whether the zones only add slip at edges to others that are placed.
     """
 
     layout: Layout
@@ -59,7 +58,6 @@ class SearchState:
     end_error: Figures | None = None
     end_sensitivity: Figures | None = None
     jacobian: Array | None = None
-    may_be_left_out: bool = False
 
     @property
     def is_quiet(self) -> bool:
@@ -113,7 +111,7 @@ class ZoneSearch:
             return
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
-            yield SearchState(slipping, latest, may_be_left_out=True)
+            yield SearchState(slipping, latest)
         if self.has_tension(latest):
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
@@ -176,9 +174,6 @@ class ZoneSearch:
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
-        layout = layout.without_short_zones(
-            self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
-        )
         for slip in negligible_slip(self.nip, self.model, latest):
             layout = slip.left_out_of(layout, keeps_stick=_keeps_stick(latest))
         second = second_order(self.nip, self.model.geometry, latest.mesh, found)

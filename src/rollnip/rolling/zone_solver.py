@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf
 
 import numpy as np
 
@@ -29,10 +28,7 @@ from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
-
-_NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
-_PIECES_PER_THICKNESS = 6.0  # least number of linear pieces along a thickness of such a covering
+from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
@@ -59,21 +55,6 @@ class ZoneSolver:
     def _beta(self) -> float:
         return dundurs(self.nip)
 
-    @cached_property
-    def longest_piece(self) -> float:
-        """Largest length of the linear pieces of the acting tractions [mm].
-
-        A thin incompressible covering on a rigid core moves as the second derivative of the
-        pressure, which linear pieces longer than its thickness cannot represent.
-        """
-        coverings = [
-            roller.coating_thickness
-            for roller in (self.nip.upper, self.nip.lower)
-            if not roller.is_rigid and roller.core is None
-            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-        ]
-        return min(coverings, default=inf) / _PIECES_PER_THICKNESS
-
     def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
         """Return the crowding that resolves the boundary layers of each zone.
 
@@ -89,14 +70,14 @@ class ZoneSolver:
         nodes = cosine_nodes(layout.breaks, *shape)
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
         exponents = layout.edge_exponents(self._beta, self.nip.friction)
-        fine = subdivided(nodes, *shape, self.longest_piece, edges, exponents)
+        fine = subdivided(nodes, *shape, edges, exponents)
         return mesh_on(nodes, kernels, fine)
 
     def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on roughly known zones, to seek states node by node."""
         shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
         nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape, self.longest_piece)
+        fine = subdivided(nodes, *shape)
         return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
     @cached_property
@@ -143,16 +124,6 @@ class ZoneSolver:
             shortest = shortest_zone(self.nip, self.model, layout.width)
             proposed = layout.with_reversals(proposed, NEGLIGIBLE * shortest)
         return latest, proposed
-
-    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
-        """Return `Layout.singular`; None with friction, or with several zones.
-
-        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
-        root in the shear, which the pressure follows.
-        """
-        if self.nip.friction > 0.0 or layout.states.size > 1:
-            return None
-        return layout.singular(latest.mesh.inner, latest.state)
 
 
 def crowds_more(one: Crowding, other: Crowding) -> bool:

@@ -165,6 +165,14 @@ def test_edges_are_found_again(off):
     assert distances[-1] == pytest.approx(distances[-2], abs=1e-6)
 
 
+@pytest.mark.parametrize("half_width", [0.5, 0.8, 0.99, 1.01, 1.2, 1.5, 2.0])
+def test_inverse_square_root_at_an_edge_that_is_far_off(half_width):
+    """Exact: p = ((1 + a^2)/2 - x^2)/(pi sqrt(a^2 - x^2)), whose root may be missing altogether."""
+    problem, layout, state = hertz([-half_width, half_width], 48)
+    exact = (1.0 - half_width**2) / (np.pi * np.sqrt(2.0 * half_width))
+    np.testing.assert_allclose(layout.singular(problem.x, state), [-exact, exact], rtol=0.01)
+
+
 @pytest.mark.parametrize("off", [0.1, -0.1])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_transition_of_carter_is_found_again(off, sign):

@@ -72,6 +72,16 @@ def proposed_move(
     return move
 
 
+def singular_part(x: Array, state: ContactState, end: int, inwards: int) -> float:
+    """Return the inverse square root in the pressure beside an edge, times its first distance.
+
+    ``end``, ``inwards``: as in `proposed_move`.
+    """
+    distance, roots = roots_beside(x, state, end, inwards, 0j)
+    misplaced = determinant((1.0, 1.0, 1.0), distance, [root.real for root in roots])
+    return misplaced / determinant((1.0, 1.0, 1.0), distance, RESPONSE) * distance[0]
+
+
 def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
     """Return how far outwards the end of a zone should move, from values at three nodes inside it.
 

@@ -20,7 +20,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rollnip.contact.edge_exponents import exponent_at_leading_edge
-from rollnip.contact.ends import proposed_move
+from rollnip.contact.ends import proposed_move, singular_part
 from rollnip.contact.features import ContactZone, with_stick_between, zones_between
 from rollnip.contact.problem import (
     FREE,
@@ -361,3 +361,12 @@ class Layout:
             step = proposed_move(x, state, ends[number], inwards, weight, kappa, furthest)
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
+
+    def singular(self, x: Array, state: ContactState) -> Array:
+        """Return the amplitudes of the inverse square roots in the pressure at both edges, (2,).
+
+        Each is the factor of the square root at that edge times the move that the edge needs,
+        positive towards the leading edge [MPa sqrt(mm)].
+        """
+        ends = zip(self.ends(x)[[0, -1]].tolist(), (1, -1), strict=True)
+        return np.array([inwards * singular_part(x, state, end, inwards) for end, inwards in ends])

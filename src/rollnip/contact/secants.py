@@ -24,6 +24,13 @@ class Secants:
     shows the direction in which an end should move, the end is found by bisection between the last
     places that called for either direction.
 
+    A proposed move is the ratio of an inverse square root to a square root in the pressure. Under a
+    skin, if an edge is misplaced by more than the skin is thick, both grow alike, and the ratio
+    shows no more than the thickness. The inverse square root alone stays proportional to the
+    error, as the solution is linear in the gap that the contact closes too much or too little. So
+    it replaces the ratio at the edges of a single zone where nothing else enters the pressure
+    there; its unit is chosen to give the first proposed move.
+
     Attributes
     ----------
     reach : longest move of an end with no finite proposed place: the misplacement expected at
@@ -36,6 +43,7 @@ class Secants:
     jacobian: Array | None = None
     last: tuple[Array, Array] | None = None
     _longest: float = 0.0
+    _unit: Array | None = None
     _bracket: tuple[Array, Array] | None = None
     _vanishing: set[int] = field(default_factory=set)
 
@@ -46,7 +54,9 @@ class Secants:
         """
         self.last = self._bracket = None
 
-    def next_layout(self, layout: Layout, proposed: Layout, *, only_ends_move: bool) -> Layout:
+    def next_layout(
+        self, layout: Layout, proposed: Layout, singular: Array | None, *, only_ends_move: bool
+    ) -> Layout:
         """Return the zones with their ends at the next places to try.
 
         Ends with no finite proposed place move by a limited step in the proposed direction.
@@ -55,10 +65,12 @@ class Secants:
         ----------
         layout : the zones of the last mesh.
         proposed : the same zones with the ends where its solution puts them.
+        singular : (2,) inverse square roots at the edges of a single zone, see `Layout.singular`;
+            None: use the proposed moves themselves.
         only_ends_move : whether only the ends will change from this mesh to the next, so that the
             secant between the two may be used.
         """
-        moves = proposed.breaks - layout.breaks
+        moves = self._moves(layout, proposed, singular)
         jacobian, free = self._updated_jacobian(layout.breaks, moves), np.isfinite(moves)
         steps = moves.copy()
         if not free.all():
@@ -71,12 +83,23 @@ class Secants:
         steps = solved if info == 0 else steps
         largest = np.abs(steps[free]).max(initial=_TINY)
         longest = _LONGEST_STEP * np.abs(moves[free]).max(initial=self._longest)
+        if self._unit is not None and self.last is not None:
+            longest = np.inf  # the Jacobian along the edges' path is known and nearly constant
         steps[free] *= min(1.0, longest / largest)
         self.last = (layout.breaks, moves) if only_ends_move else None
         limited = layout.stepped_towards(Layout(layout.breaks + steps, layout.states))
         places = self._bracketed(layout.breaks, layout.breaks + moves, limited.breaks)
         self._longest = float(np.abs(places - layout.breaks)[free].max(initial=0.0))
         return Layout(places, layout.states)
+
+    def _moves(self, layout: Layout, proposed: Layout, singular: Array | None) -> Array:
+        """Return the proposed moves, from the inverse square roots where these are given."""
+        moves = proposed.breaks - layout.breaks
+        if singular is None:
+            return moves
+        if self._unit is None and np.isfinite(moves).all() and np.all(moves * singular > 0.0):
+            self._unit = moves / singular
+        return moves if self._unit is None else self._unit * singular
 
     def _updated_jacobian(self, breaks: Array, moves: Array) -> Array:
         """Return the Jacobian after Broyden's update from the last two meshes."""
@@ -101,7 +124,7 @@ class Secants:
         high = np.where(proposed < breaks, breaks, np.where(high > breaks, high, np.inf))
         self._bracket = low, high
         # Bracketing holds only for these: there is no transition to move them.
-        is_alone = breaks.size == 2
+        is_alone = breaks.size == 2 and self._unit is None
         lost = np.isinf(proposed) | ((limited <= low) | (limited >= high) if is_alone else False)
         between = lost & np.isfinite(low) & np.isfinite(high)
         away = lost & ~between & np.isfinite(proposed)

@@ -85,9 +85,11 @@ class EndSearch:
         self.latest, self.proposed = solver.solve(self.state, shape)
         self.misplacement = self.proposed.distance(layout)
         self.nearest = min(self.nearest, self.misplacement)
-        only_ends_move = self.latest.settled and self.is_quiet
         self.next_layout = self.ends.next_layout(
-            layout, self.proposed, only_ends_move=only_ends_move
+            layout,
+            self.proposed,
+            solver.singular(self.latest, layout),
+            only_ends_move=self.latest.settled and self.is_quiet,
         )
         self._learn_sensitivity()
 

@@ -28,7 +28,7 @@ from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
@@ -124,6 +124,16 @@ class ZoneSolver:
             shortest = shortest_zone(self.nip, self.model, layout.width)
             proposed = layout.with_reversals(proposed, NEGLIGIBLE * shortest)
         return latest, proposed
+
+    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
+        """Return `Layout.singular`; None with friction, or with several zones.
+
+        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
+        root in the shear, which the pressure follows.
+        """
+        if self.nip.friction > 0.0 or layout.states.size > 1:
+            return None
+        return layout.singular(latest.mesh.inner, latest.state)
 
 
 def crowds_more(one: Crowding, other: Crowding) -> bool:

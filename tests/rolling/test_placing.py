@@ -127,3 +127,22 @@ def test_edges_under_a_stiff_skin_take_few_meshes(share, stiffness):
     solution, plain = (rn.solve(each, rn.Model(geometry="curved")) for each in (nip, without))
     assert solution.converged
     assert solution.solver.iterations <= plain.solver.iterations + 9
+
+
+def test_a_stick_zone_where_slip_reverses_is_placed_to_a_part_of_its_length():
+    """Shorter than it should be, it asks for small moves: its creepage was off by 0.55 %."""
+    soft = rn.Layer(1.3226893541772022, rn.Elastic(modulus=2.215529993893483, poisson=0.3))
+    hard = rn.Layer(1.3226893541772022, rn.Elastic(modulus=14.799308948285434, poisson=0.45))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=18.88301853631793, layers=(soft, hard)),
+        lower=rn.Roller(radius=66.93838597583887),
+        normal=rn.LineLoad(0.016212639876276757),
+        tangential=rn.Traction(-7.402139636962816e-06),
+        friction=0.0036576517015382633,
+    )
+    found, finer = (
+        rn.solve(nip, rn.Model(geometry="curved", tolerance=tolerance))
+        for tolerance in (1e-3, 1e-5)
+    )
+    assert found.converged
+    assert found.creepage == pytest.approx(finer.creepage, rel=1e-3)

@@ -139,6 +139,7 @@ class Placing:
                 layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
             )
             and (search.proposed.is_proper and latest.settled and search.is_quiet)
+            and _are_reversals_placed(layout, search.proposed)
             and not (by_figures and self._changes(latest, search.end_error))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
             and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
@@ -192,6 +193,17 @@ class Placing:
         if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
             most += MOST_MESHES // 2
         return most
+
+
+def _are_reversals_placed(layout: Layout, proposed: Layout) -> bool:
+    """Return whether each stick zone where slip changes its sign should change little in length.
+
+    The tractions of such a zone see no further than it is long. One that should be ten times as
+    long asks for moves of a part of its own length only, which are small beside the width.
+    """
+    moves = np.abs(proposed.breaks - layout.breaks).tolist()
+    lengths = layout.lengths.tolist()
+    return all(max(moves[i : i + 2]) <= NEAR_ENOUGH * lengths[i] for i in layout.reversals)
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

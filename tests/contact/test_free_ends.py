@@ -151,6 +151,23 @@ def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
     assert whole.with_gap(0.5, 1.5) is None
 
 
+def test_zones_shorter_than_what_counts_are_left_out_shortest_first():
+    breaks, states = [0.0, 0.01, 0.03, 5.0, 5.05, 5.055, 9.0], [PLUS, STICK, PLUS, STICK, MINUS]
+    whole = Layout(np.array(breaks), np.array([*states, STICK], dtype=np.int8))
+    none = Layout(np.array([0.0, 9.0]), np.array([State.FREE], dtype=np.int8))
+    same = whole.without_short_zones(0.004, none, keeps_stick=True)
+    assert same.breaks.tolist() == breaks
+    assert whole.without_short_zones(0.02, none, keeps_stick=True).breaks.tolist() == [
+        0.0,
+        0.03,
+        5.0,
+        9.0,
+    ]
+    fewer = whole.without_short_zones(0.1, none, keeps_stick=True)
+    assert fewer.states.tolist() == [PLUS, STICK]
+    assert fewer.breaks.tolist() == [0.0, 5.0, 9.0]
+
+
 @pytest.mark.parametrize("off", [(-0.2, 0.2), (0.2, 0.1), (0.0, -0.3), (1e-3, 0.0)])
 def test_edges_are_found_again(off):
     """Newton's method: the distance is squared from mesh to mesh, down to that of the elements."""

@@ -232,6 +232,27 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
+    def without_short_zones(self, least: float, known: Layout, *, keeps_stick: bool) -> Layout:
+        """Return the layout without zones shorter than ``least`` [mm], removing the shortest first.
+
+        It keeps those that overlap a zone of ``known`` in the same state, and stops at the first
+        zone that cannot be removed, see `without`.
+        """
+        layout = self
+        while True:
+            lengths = np.where(layout._overlaps(known), np.inf, layout.lengths)
+            shortest = int(np.argmin(lengths))
+            fewer = layout.without(shortest, keeps_stick=keeps_stick)
+            if fewer is None or lengths[shortest] >= least:
+                return layout
+            layout = fewer
+
+    def _overlaps(self, other: Layout) -> Mask:
+        """Return which zones overlap a zone of ``other`` in the same state."""
+        starts = np.maximum(self.breaks[:-1, None], other.breaks[:-1])
+        stops = np.minimum(self.breaks[1:, None], other.breaks[1:])
+        return np.asarray(((self.states[:, None] == other.states) & (starts < stops)).any(axis=1))
+
     @property
     def reversals(self) -> list[int]:
         """Numbers of the zones of stick where slip changes its sign, shorter than that slip."""

@@ -19,7 +19,7 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, error_ratio
+from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
@@ -139,8 +139,7 @@ class Placing:
                 layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
             )
             and (search.proposed.is_proper and latest.settled and search.is_quiet)
-            and _are_reversals_placed(layout, search.proposed)
-            and not (by_figures and self._changes(latest, search.end_error))
+            and not (by_figures and self._changes(search))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
             and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
         )
@@ -161,14 +160,16 @@ class Placing:
         shortest = float(layout.lengths.min())
         return misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
 
-    def _changes(self, latest: MeshSolution, end_error: Figures | None) -> bool:
+    def _changes(self, search: EndSearch) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may leave.
 
-        ``end_error``: the expected changes; None: unknown, and taken as too large.
+        All figures but the width are linear functionals of the tractions, so they depend on the
+        ends to second order. Where it is not known how much, ends count that are placed a tenth as
+        exactly as where figures do not decide.
         """
-        if end_error is None:
-            return True
-        changed = replace(latest, error=end_error)
+        if search.end_error is None:
+            return search.misplacement > NEGLIGIBLE**2 * self.model.tolerance
+        changed = replace(search.latest, error=search.end_error)
         return error_ratio(self.nip, changed, self.model.tolerance) > NEGLIGIBLE
 
     def _exceeds_bound(self, latest: MeshSolution) -> bool:
@@ -193,17 +194,6 @@ class Placing:
         if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
             most += MOST_MESHES // 2
         return most
-
-
-def _are_reversals_placed(layout: Layout, proposed: Layout) -> bool:
-    """Return whether each stick zone where slip changes its sign should change little in length.
-
-    The tractions of such a zone see no further than it is long. One that should be ten times as
-    long asks for moves of a part of its own length only, which are small beside the width.
-    """
-    moves = np.abs(proposed.breaks - layout.breaks).tolist()
-    lengths = layout.lengths.tolist()
-    return all(max(moves[i : i + 2]) <= NEAR_ENOUGH * lengths[i] for i in layout.reversals)
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

@@ -104,8 +104,8 @@ class ZoneSearch:
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
             found = self.between_edges(latest, wanted, edges)
-            # For the same zones there is nothing to change: their ends move anyway.
-            if found is not None and not found.layout.is_like(layout):
+            # Until they are placed the ends of the same zones move anyway.
+            if found is not None and (is_placed or not found.layout.is_like(layout)):
                 yield found
         if not is_placed:
             return
@@ -174,6 +174,9 @@ class ZoneSearch:
         layout = Layout.from_nodes(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
+        layout = layout.without_short_zones(
+            self._shortest(layout), edges, keeps_stick=_keeps_stick(latest)
+        )
         for slip in negligible_slip(self.nip, self.model, latest):
             layout = slip.left_out_of(layout, keeps_stick=_keeps_stick(latest))
         second = second_order(self.nip, self.model.geometry, latest.mesh, found)

@@ -252,7 +252,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     found = []
     for enough in (1.0, 0.03):
         monkeypatch.setattr(acceleration, "CONVERGED", enough)
-        found.append(rn.solve(figure_4(0.33)))
+        found.append(rn.solve(figure_4(0.27)))
     rough, fine = found
     assert rough.final.residual > 5e-4 > 5.0 * fine.final.residual
     assert fine.error["approach"] == pytest.approx(3e-4 * fine.approach, rel=1e-9)

@@ -195,7 +195,8 @@ def _iterate(
         if not found.settled:
             cause = "contact"
             break
-        mixer = mixer if stage is was else AndersonMixer(places_by_the_edges(_edges(latest)))
+        is_like = stage is was or latest.is_placed  # unlike one found node by node
+        mixer = mixer if is_like else AndersonMixer(places_by_the_edges(_edges(latest)))
         latest = found
     if best.found is None:
         return IterationFailure(cause, iterations, change)

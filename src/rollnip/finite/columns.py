@@ -29,12 +29,12 @@ _OVER_SQUEEZED = 0.4
 # half-width of more than 200 times their thickness; their contact is not verified.
 _MOST_COLUMNS = 1024
 _INSIDE = 4.0  # longest element anywhere under the tractions, over `skin`
-_GROWTH = 2.0  # ratio of the lengths of neighbouring elements beside the tractions, at most
 # Beside the tractions; "thickness" is that of the covering, at least _LEAST_THICKNESS half-widths.
+_GROWTH = 3.0  # ratio of the lengths of neighbouring elements, at most
 _LONGEST = 0.8  # longest element, over the thickness
 _LONGEST_OVER_LAG = 0.125  # the same over the shear lag of a skin; the larger of the two counts
 _REACH = 4.75  # of the mesh beyond the tractions, over the thickness
-_REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
+_MEMORY = 1.6  # where a layer is viscoelastic: this times the reach, and the growth over it
 _REACH_OVER_LAG = 5.0  # the same over the shear lag of a skin; the larger of the two counts
 _LARGEST_ARC = 2.5  # largest arc of the mesh, over the radius
 _LARGEST_REACH_BY_LAG = 2.0 * pi  # largest reach on account of the shear lag, over the radius
@@ -56,6 +56,7 @@ class Columns:
     cut : wave number up to which the correction keeps waves because of the skin [1/mm]; 0 without
         one.
     squeezed : thickness of what is squeezed between the tractions and a stiff layer or core [mm].
+    growth : ratio of the lengths of neighbouring elements beside the tractions, at most.
     """
 
     longest: float
@@ -63,20 +64,22 @@ class Columns:
     skin: float
     cut: float = 0.0
     squeezed: float = inf
+    growth: float = _GROWTH
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Columns:
         """Return the lengths for a contact of about this half-width [mm]."""
         thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
         lag = _shear_lag(roller)
-        reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * thick
-        far = _REACH_OVER_LAG * lag
+        memory = _MEMORY if roller.is_viscoelastic else 1.0
+        reach, far = _REACH * memory * thick, _REACH_OVER_LAG * lag
         if roller.curvature > 0.0:
             reach = min(reach, _LARGEST_ARC * roller.radius - half_width)
             far = min(far, _LARGEST_REACH_BY_LAG * roller.radius)
         longest = max(_LONGEST * thick, _LONGEST_OVER_LAG * lag)
         skin, squeezed = _skin_length(roller), _squeezed_thickness(roller)
-        return cls(longest, max(reach, far), skin, _skin_cut(roller), squeezed)
+        reach, growth = max(reach, far), _GROWTH / memory
+        return cls(longest, reach, skin, _skin_cut(roller), squeezed, growth)
 
     def places(
         self, nodes: Array, pressure: Array, *, has_several_zones: bool = False
@@ -127,7 +130,7 @@ class Columns:
         while ends[-1] < self.reach:
             ends.append(ends[-1] + step)
             bent = _BESIDE_EDGE * self.skin + _OUTER_EDGE_GROWTH * ends[-1]
-            step = min(_GROWTH * step, self.longest, bent)
+            step = min(self.growth * step, self.longest, bent)
         return np.array(ends[1:]) * (self.reach / ends[-1])
 
 

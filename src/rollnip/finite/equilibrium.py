@@ -217,11 +217,6 @@ class Body:
         force += (fields.pressure_step[:, None] @ volume_derivatives)[:, 0]
         return self.strip.assembled(force)
 
-    @cached_property
-    def _neo_hookean_stiffness(self) -> Array:
-        """Stiffness int G grad N_a . grad N_b of neo-Hookean elements, the same at any strain."""
-        return self.strip.gradient_stiffness(self._constants[0])
-
     def _element_stiffness(
         self,
         fields: PointFields,
@@ -230,26 +225,19 @@ class Body:
     ) -> Array:
         """Return the derivative of the internal forces by the displacements, before assembly.
 
-        Of every element, (elements, 2, 9, 2, 9). What relaxing stresses owe to other Gauss points
-        is left out.
+        Of every element, (elements, 18, 18). What relaxing stresses owe to other Gauss points is
+        left out.
         """
-        if self._is_neo_hookean:
-            straight = self._neo_hookean_stiffness
-        else:
-            straight = self.strip.gradient_stiffness(fields.isotropic)
-        turn = self.strip.cofactor_stiffness(fields.c)
-        stiff = derivatives[0].transpose(0, 2, 1) @ derivatives[1]
+        stiff = self.strip.stiffness(fields.isotropic, fields.c)
+        stiff += derivatives[0].transpose(0, 2, 1) @ derivatives[1]
         if fields.relaxing is not None and relaxing is not None:
-            straight = straight + fields.relaxing.geometric_stiffness
             stiff += relaxing.own_stiffness()
+            straight = fields.relaxing.geometric_stiffness
+            stiff[:, :9, :9] += straight
+            stiff[:, 9:, 9:] += straight
         if fields.energy_slopes is not None:
             stiff += self._stiffening(fields.deformation, fields.energy_slopes)
-        stiff = stiff.reshape(-1, 2, 9, 2, 9)
-        stiff[:, 0, :, 0] += straight
-        stiff[:, 1, :, 1] += straight
-        stiff[:, 0, :, 1] += turn
-        stiff[:, 1, :, 0] -= turn
-        return np.asarray(stiff)
+        return stiff
 
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
         """Return what the second derivatives of w add, with dI = 2 F : dF and dJ = cof F : dF."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -230,7 +231,7 @@ class FiniteResponse:
 
     def _unfiltered_correction(self, mesh: _LoadedMesh) -> tuple[Spline, ...]:
         """Return the corrections of u_x and u_z at an equilibrium, before the filter."""
-        surface = deformed_surface(mesh.body, mesh.state)
+        surface = mesh.surface
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
         u -= self._error_in_linear_theory(mesh, x, surface.arcs[near])
@@ -340,8 +341,7 @@ class FiniteResponse:
         self, mesh: _LoadedMesh, places: Array, loaded: slice
     ) -> tuple[Body, Body, MeshState]:
         """Return a mesh whose loaded columns lie at their present places, and the state on it."""
-        surface = deformed_surface(mesh.body, mesh.state)
-        strip, state = mesh.body.strip, mesh.state
+        surface, strip, state = mesh.surface, mesh.body.strip, mesh.state
         front = np.abs(surface.arcs) < _FRONT / max(strip.depths.roller.curvature, 1e-300)
         if not front.any():
             raise NoEquilibriumError
@@ -375,12 +375,17 @@ class _LoadedMesh:
     loaded: slice
     applied: NodalTractions
 
+    @cached_property
+    def surface(self) -> DeformedSurface:
+        """The deformed surface."""
+        return deformed_surface(self.body, self.state)
+
     def is_near(self, places: Array, speed: float | None, tolerance: float) -> bool:
         """Return whether loaded columns lie at some places, within a tolerance, at that speed."""
         own = self.body.speed
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
-        here = deformed_surface(self.body, self.state).x[self.loaded]
+        here = self.surface.x[self.loaded]
         if here.size != places.size:
             return False
         return float(np.abs(here - places).max()) <= tolerance

@@ -44,9 +44,14 @@ _BY = np.stack([_D_S[:, :, None] * _N_Z[:, None, :], _N_S[:, :, None] * _D_Z[:, 
 _BY = _BY.reshape(2, 9, 9)
 _WEIGHTED = (_AREA[:, None] * _BY).reshape(18, 9)
 _IN_BASIS = (LINEAR[:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 27)
-_SQUARES = (_BY[:, :, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 81)
+_SQUARES = (_BY[..., None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 9, 9)
 _CROSS = _BY[0][:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)[1]
-_CROSS = (_CROSS - _CROSS.transpose(0, 2, 1)).reshape(9, 81)
+_STIFFNESS = np.concatenate(  # x by x and y by y, and x by y and y by x
+    [
+        np.einsum("gab,ij->giajb", _SQUARES, np.eye(2)),
+        np.einsum("gab,ij->giajb", _CROSS - _CROSS.transpose(0, 2, 1), [[0.0, 1.0], [-1.0, 0.0]]),
+    ]
+).reshape(27, 324)
 # The same on the surface: at four points, without weights.
 _ON_SURFACE, _SURFACE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _N, _D = quadratics(_ON_SURFACE)
@@ -235,17 +240,15 @@ class Strip:
         np.multiply(by_part, self._lengths[::-1], out=out.transpose(1, 2, 0, 3))
         return out.reshape(-1, 18)
 
-    def gradient_stiffness(self, modulus: Array) -> Array:
-        """Return int modulus grad N_a . grad N_b, (elements, 9, 9); modulus (elements, 9)."""
-        weight = modulus * self._lengths[::-1] * self._rates
-        return np.asarray(weight.transpose(1, 0, 2).reshape(-1, 18) @ _SQUARES).reshape(-1, 9, 9)
+    def stiffness(self, modulus: Array, c: Array) -> Array:
+        """Return the stiffness of elements with P = modulus F + c cof F, (elements, 18, 18).
 
-    def cofactor_stiffness(self, c: Array) -> Array:
-        """Return int c (N_a,s N_b,z - N_a,z N_b,s), (elements, 9, 9); c (elements, 9).
-
-        The Jacobian cancels: the integral does not depend on the sizes of an element.
+        That is int modulus grad N_a . grad N_b of x by x and of y by y, and of x by y
+        int c (N_a,s N_b,z - N_a,z N_b,s), whatever the sizes of an element: the Jacobian cancels.
+        Both factors (elements, 9).
         """
-        return np.asarray(c @ _CROSS).reshape(-1, 9, 9)
+        weight = np.stack((*(modulus * self._lengths[::-1] * self._rates), c), axis=1)
+        return np.asarray(weight.reshape(-1, 27) @ _STIFFNESS).reshape(-1, 18, 18)
 
     @cached_property
     def projection(self) -> tuple[Array, Array]:

@@ -152,7 +152,7 @@ class SecondFields:
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
                 changes = (x > ends[0]) & (x < ends[1]) if order else 1.0
-                row[:] = f(np.clip(x, *ends), order) * changes
+                row[:] = f(np.minimum(np.maximum(x, ends[0]), ends[1]), order) * changes
         return Displacements(four)
 
     def of_side(self, side: int) -> SecondFields:

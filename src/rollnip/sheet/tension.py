@@ -124,7 +124,9 @@ class KnownTension:
 
     def over(self, x: Array) -> Array:
         """Return the integral of the known tension from each of m places to the next one [N]."""
-        every = np.unique(np.concatenate([x, self.places]))
-        added = np.interp(every, self.places, self.added)
-        along = np.append(0.0, np.cumsum(0.5 * np.diff(every) * (added[1:] + added[:-1])))
-        return np.asarray(self.inlet * np.diff(x) + np.diff(along[np.searchsorted(every, x)]))
+        places, added = self.places, self.added
+        along = np.zeros(places.size)
+        np.cumsum((places[1:] - places[:-1]) * (added[1:] + added[:-1]), out=along[1:])
+        last = np.maximum(places.searchsorted(x, side="right") - 1, 0)
+        along = along[last] + (x - places[last]) * (added[last] + np.interp(x, places, added))
+        return np.asarray(self.inlet * (x[1:] - x[:-1]) + 0.5 * (along[1:] - along[:-1]))

@@ -47,7 +47,7 @@ def solve_complementarity(
     """
     found = interior_point(*_inequalities(problem, lagged, edges), _ENOUGH)
     end, n = problem.starts[-1], problem.meshes[0].inner.size
-    p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
+    p_u, q_u, p_l, q_l = problem.parts(found.unknowns)
     approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
     states = [
         with_stick_between_slips(np.where(touches, slips, State.FREE).astype(np.int8), shear)

@@ -58,8 +58,9 @@ class CurvedLoad:
         return cls(loads, x, *_deflection(loads, x, loads.tail_moments))
 
     def at(self, places: Array) -> CurvedLoad:
-        """Return the same load with its effect at given places."""
-        return CurvedLoad(self.loads, places, *self.deflection_at(places))
+        """Return the same load with its effect interpolated to given places."""
+        height, rotation = (np.interp(places, self.places, y) for y in (self.height, self.rotation))
+        return CurvedLoad(self.loads, places, height, rotation)
 
     @property
     def total(self) -> float:

@@ -22,10 +22,14 @@ EXTRA_UNKNOWNS = 5
 
 @dataclass(frozen=True, slots=True)
 class FactorisedPlate:
-    """The factorised linear system for given states, to be solved for several lagged terms."""
+    """The factorised linear system for given states, to be solved for several lagged terms.
+
+    ``unknowns``: indices of the unknowns, see `_unknown_indices`.
+    """
 
     problem: PlateProblem
     states: tuple[States, States]
+    unknowns: NDArray[np.intp]
     factors: LUFactors
 
     @classmethod
@@ -37,19 +41,19 @@ class FactorisedPlate:
         numpy.linalg.LinAlgError
             where the states make the system singular.
         """
-        return cls(problem, states, LUFactors.of(_matrix(problem, states)))
+        unknowns = _unknown_indices(states, problem.starts[-1])
+        matrix = _matrix(problem, states)[np.ix_(unknowns, unknowns)]
+        return cls(problem, states, unknowns, LUFactors.of(matrix))
 
     def solved(self, lagged: PlateTerms) -> PlateState:
         """Return the solution for these states and given lagged terms."""
         problem, states = self.problem, self.states
-        right = -constant_terms(problem, lagged)[_unknown_indices(states, problem.starts[-1])]
-        unknowns = self.factors.solve(right)
-        tractions = np.zeros(problem.starts[-1])
-        tractions[_unknown_indices(states, 0)[:-EXTRA_UNKNOWNS]] = unknowns[:-EXTRA_UNKNOWNS]
-        p_u, q_u, p_l, q_l = np.split(tractions, problem.starts[1:-1])
+        found = np.zeros(problem.starts[-1] + EXTRA_UNKNOWNS)
+        found[self.unknowns] = self.factors.solve(-constant_terms(problem, lagged)[self.unknowns])
+        p_u, q_u, p_l, q_l = problem.parts(found)
         slips = _slip_ratios(problem, states)
         q_u, q_l = q_u + slips[0] * p_u, q_l + slips[1] * p_l
-        approach, upper, lower, height, rotation = unknowns[-EXTRA_UNKNOWNS:].tolist()
+        approach, upper, lower, height, rotation = found[-EXTRA_UNKNOWNS:].tolist()
         return PlateState(
             states, (p_u, p_l), (q_u, q_l), approach, (upper, lower), height, rotation
         )
@@ -127,10 +131,10 @@ def constant_terms(problem: PlateProblem, lagged: PlateTerms) -> Array:
 
 
 def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:
-    """Return the equations for given states: gaps in contact, creeps in stick, five conditions."""
+    """Return the equations with shears in slip in proportion to their pressures."""
     a, b, c, d, end = problem.starts
-    whole, places = equations(problem), _unknown_indices(states, end)
+    whole = equations(problem)
     for ratio, at in zip(_slip_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):
         if ratio.any():
             whole[:, at[0] : at[1]] += whole[:, at[1] : at[2]] * ratio
-    return np.asarray(whole[np.ix_(places, places)])
+    return whole

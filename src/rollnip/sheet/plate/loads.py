@@ -96,8 +96,8 @@ class PiecewiseLoads:
 
     def _inside(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
         """Return the nearest places on the mesh, and the numbers of the nodes before them."""
-        inside = np.clip(x, self.nodes[0], self.nodes[-1])
-        at = np.searchsorted(self.nodes, inside, side="right") - 1
+        inside = np.minimum(np.maximum(x, self.nodes[0]), self.nodes[-1])
+        at = self.nodes.searchsorted(inside, side="right") - 1
         return inside, np.minimum(at, self.nodes.size - 2)
 
     def tail_moments_at(self, x: Array) -> Array:
@@ -175,69 +175,50 @@ class PiecewiseLoads:
 
     def _decayed(self, x: Array) -> tuple[Array, Array]:
         """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
-        nodes, lines, length = self.nodes, self.lines, self.plate.length
+        nodes, lines, length, out = self.nodes, self.lines, self.plate.length, list[Array]()
         inside, at = self._inside(x)
         left, right = inside - nodes[at], nodes[at + 1] - inside
-        lengths = np.concatenate([np.diff(nodes), left, right])
-        ends = nodes.size - 1, nodes.size - 1 + x.size
-        near, far = (np.split(one[:, None], ends) for one in exponential_weights(lengths, length))
-        decays = np.split(np.exp(-lengths / length)[:, None], ends)
         pieces = np.zeros((2, *lines.shape))
-        pieces[0, 1:] = far[0] * lines[:-1] + near[0] * lines[1:]
-        pieces[1, :-1] = near[0] * lines[:-1] + far[0] * lines[1:]
+        near, far = exponential_weights(nodes[1:] - nodes[:-1], length)[..., None]
+        pieces[0, 1:] = far * lines[:-1] + near * lines[1:]
+        pieces[1, :-1] = near * lines[:-1] + far * lines[1:]
         behind = _decaying_sums(pieces[0], (nodes - nodes[0]) / length)
         ahead = _decaying_sums(pieces[1, ::-1], (nodes[-1] - nodes[::-1]) / length)[::-1]
         share = (left / (left + right))[:, None]
         here = (1.0 - share) * lines[at] + share * lines[at + 1]
-        outside = np.exp(-np.abs(x - inside) / length)[:, None]
-        out = []
-        for way, end, total in ((1, at, behind), (2, at + 1, ahead)):
-            passed = decays[way] * total[end] + near[way] * here + far[way] * lines[end]
-            out.append(outside * passed)
+        outside = np.exp(-np.abs(x - inside) / length)
+        for way, end, total in ((left, at, behind), (right, at + 1, ahead)):
+            near, far = (outside * exponential_weights(way, length))[..., None]
+            passed = (outside * np.exp(-way / length))[:, None] * total[end]
+            out.append(passed + near * here + far * lines[end])
         return out[0], out[1]
-
-    def face_indentation(self, x: Array, far: NDArray[np.bool_]) -> Array:
-        """Return the displacement of a face towards the middle under pressures, (m, n) [mm/MPa].
-
-        ``far``: where it is the face opposite to that under the pressures, otherwise that face
-        itself.
-        """
-        response = pressed_response(_ONE_FACE)
-        (made,) = displacements((response,), self.sheet.thickness, x, self.nodes, self.lines, far)
-        return self.sheet.squeeze * made
-
-    def stretch_integral(self, x: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
-        """Return int g t ds from given places on, (m, n) [mm]; see `rollnip.sheet.local_stretch`.
-
-        g t is the stretch of the face under pressures t, without bending; ``tail_moments``:
-        `tail_moments_at` of the places; ``far``: see `face_indentation`.
-        """
-        response, thickness = stretch_integral_response(), self.sheet.thickness
-        (short,) = displacements((response,), thickness, x, self.nodes, self.lines, far)
-        return self._with_long_waves(short, far, tail_moments)
 
     def face_displacements(
         self, x: Array, far: NDArray[np.bool_], tail_moments: Array
     ) -> tuple[Array, Array, Array]:
-        """Return the displacements of a face by unit tractions, each (m, n).
+        """Return the displacements of a face by the tractions, each (m, n).
 
-        Towards the middle by pressures, see `face_indentation` [mm/MPa]; tangential by shears,
-        without tension and bending, with the sign of the shear on the roller at that face [mm/MPa];
-        and tangential by pressures, see `stretch_integral` [mm].
+        Towards the middle by pressures [mm/MPa]; tangential by shears, without tension and bending,
+        with the sign of the shear on the roller at that face [mm/MPa]; and int g t ds from given
+        places on, where g t is the stretch of the face by pressures t without bending [mm], see
+        `rollnip.sheet.local_stretch`.
+
+        Parameters
+        ----------
+        x : (m,) places [mm].
+        far : where the face is the one opposite to the tractions, otherwise it is under them.
+        tail_moments : `tail_moments_at` of the places.
         """
         responses = pressed_response(_ONE_FACE), sheared_response(), stretch_integral_response()
+        sheet = self.sheet
         indented, shifted, short = displacements(
-            responses, self.sheet.thickness, x, self.nodes, self.lines, far
+            responses, sheet.thickness, x, self.nodes, self.lines, far
         )
-        stretched = self._with_long_waves(short, far, tail_moments)
-        return self.sheet.squeeze * indented, self.sheet.sheared * shifted, stretched
-
-    def _with_long_waves(self, short: Array, far: NDArray[np.bool_], tail_moments: Array) -> Array:
-        sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
-        signs = np.where(far, -1.0, 1.0)
-        less = sheet.sheared / sheet.thickness
-        long = alike - 0.5 * less * (LONG_WAVES[0] + signs * LONG_WAVES[1])
-        return np.asarray(long[:, None] * tail_moments[0] - sheet.sheared * short)
+        less = 0.5 * sheet.sheared / sheet.thickness
+        near = sheet.stretch_by_pressure - less * (LONG_WAVES[0] + LONG_WAVES[1])
+        long = np.where(far, -less * (LONG_WAVES[0] - LONG_WAVES[1]), near)
+        stretched = long[:, None] * tail_moments[0] - sheet.sheared * short
+        return sheet.squeeze * indented, sheet.sheared * shifted, stretched
 
 
 def _count_of_moments(plate: Plate, length: float) -> int:
@@ -253,8 +234,9 @@ def _decaying_sums(pieces: Array, places: Array) -> Array:
     They are cumulative sums of exp(s) t, which keep their accuracy as exp(s) grows, but overflow:
     each stretch of ``places`` has its own origin. Changes ``pieces``.
     """
-    starts = np.unique(places // _STRETCH, return_index=True)[1]
-    for first, last in pairwise([*starts.tolist(), places.size]):
+    stretches = places // _STRETCH
+    starts = (stretches[1:] > stretches[:-1]).nonzero()[0] + 1
+    for first, last in pairwise([0, *starts.tolist(), places.size]):
         if first > 0:
             pieces[first] += np.exp(places[first - 1] - places[first]) * pieces[first - 1]
         grown, some = np.exp(places[first:last] - places[first])[:, None], pieces[first:last]

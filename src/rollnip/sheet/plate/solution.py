@@ -78,10 +78,11 @@ class PlateSolution(SheetSolution):
 
     def _traction_slope(self) -> float:
         iterate, tractions = self._iterate, []
-        for creepage in (0.0, 1.0):  # the tractions are linear in it
-            nip = replace(self.nip, tangential=Creepage(creepage))
-            system = FactorisedPlate.of(replace(iterate.problem, nip=nip), iterate.state.states)
-            shear = system.solved(iterate.lagged).shear[1]
+        nips = (replace(self.nip, tangential=Creepage(one)) for one in (0.0, 1.0))
+        without, with_it = (replace(iterate.problem, nip=nip) for nip in nips)
+        system = FactorisedPlate.of(without, iterate.state.states)
+        for one in (system, replace(system, problem=with_it)):  # the tractions are linear in it
+            shear = one.solved(iterate.lagged).shear[1]
             tractions.append(float(iterate.problem.meshes[1].weights @ shear))
         return abs(tractions[1] - tractions[0])
 

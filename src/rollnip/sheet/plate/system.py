@@ -11,14 +11,14 @@ faces towards the middle, its tension N and its strain e,
     creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
 
 with e = a N + b (p_u + p_l)/2; bending stretches the faces by -+ h y''/2. The local deformation of
-an elastic layer is added to all of these (`PiecewiseLoads.face_shift`,
-`PiecewiseLoads.stretch_integral`). The forces across the sheet are in equilibrium, and its tension
-balances the moment of the nip on it.
+an elastic layer is added to all of these (`PiecewiseLoads.face_displacements`). The forces across
+the sheet are in equilibrium, and its tension balances the moment of the nip on it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,6 +164,10 @@ class PlateProblem:
         n, m = (mesh.inner.size for mesh in self.meshes)
         return 0, n, 2 * n, 2 * n + m, 2 * (n + m)
 
+    def parts(self, values: Array) -> list[Array]:
+        """Return the parts of values in the rows of ``matrix``, or of p_u, q_u, p_l and q_l."""
+        return [values[first:last] for first, last in pairwise(self.starts)]
+
     @property
     def places(self) -> Array:
         """Return nodes[1:] of the upper, then of the lower mesh, (m,) [mm]."""
@@ -191,9 +195,7 @@ class PlateProblem:
         self, state: PlateState, lagged: PlateTerms
     ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Return the gap at the nodes and the creep of the intervals, for each interface [mm]."""
-        made = np.split(
-            self.matrix @ state.tractions + self.constant_terms(lagged), self.starts[1:-1]
-        )
+        made = self.parts(self.matrix @ state.tractions + self.constant_terms(lagged))
         for side, mesh in enumerate(self.meshes):
             moved = state.height + state.rotation * mesh.inner
             made[2 * side] -= SIGNS[side] * moved
@@ -254,8 +256,8 @@ class PlateProblem:
         out = state.rotation + self.rotation_influence @ state.tractions
         if curved is not None:
             out += curved.deflection_at(self.places)[1]
-        upper, lower = np.split(out, [self.meshes[0].nodes.size - 1])
-        return upper, lower
+        n = self.meshes[0].nodes.size - 1
+        return out[:n], out[n:]
 
     def face_indentations_at(
         self, state: PlateState, known: KnownTension, places: tuple[Array, Array]
@@ -269,10 +271,9 @@ class PlateProblem:
         out = 0.5 * self.sheet.stretch_by_pressure * known.at(x)
         for side, one in enumerate(self.loads):
             far = is_lower if side == 0 else ~is_lower
-            pulled = one.of(self.arcs[side] * state.shear[side])
-            warped = pulled.stretch_integral(x, far, pulled.tail_moments_at(x))
-            made = one.of(state.pressure[side]).face_indentation(x, far) - SIGNS[side] * warped
-            out += made[:, 0]
+            both = one.of(np.stack([state.pressure[side], self.arcs[side] * state.shear[side]], 1))
+            indented, _, warped = both.face_displacements(x, far, both.tail_moments_at(x))
+            out += indented[:, 0] - SIGNS[side] * warped[:, 1]
         return np.split(out, ends)
 
     def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:

@@ -175,7 +175,7 @@ class PiecewiseLoads:
 
     def _decayed(self, x: Array) -> tuple[Array, Array]:
         """Return int exp(-|x - s|/L) t ds behind and ahead of given places, each (m, n)."""
-        nodes, lines, length, out = self.nodes, self.lines, self.plate.length, list[Array]()
+        nodes, lines, length = self.nodes, self.lines, self.plate.length
         inside, at = self._inside(x)
         left, right = inside - nodes[at], nodes[at + 1] - inside
         pieces = np.zeros((2, *lines.shape))
@@ -187,6 +187,7 @@ class PiecewiseLoads:
         share = (left / (left + right))[:, None]
         here = (1.0 - share) * lines[at] + share * lines[at + 1]
         outside = np.exp(-np.abs(x - inside) / length)
+        out: list[Array] = []
         for way, end, total in ((left, at, behind), (right, at + 1, ahead)):
             near, far = (outside * exponential_weights(way, length))[..., None]
             passed = (outside * np.exp(-way / length))[:, None] * total[end]

@@ -131,6 +131,20 @@ def test_thin_incompressible_coverings_converge(ratio):
         assert apart <= 3.0 * solution.error[name], name
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.05, 0.6])
+@pytest.mark.parametrize("thickness", [0.03, 0.1])
+def test_errors_of_pieces_show_between_sizes_of_mesh(thickness, friction):
+    """Half-widths of 3 and 6 thicknesses: pieces as long on all of them left up to 1.6 claims."""
+    nip = rn.Nip(
+        upper=roller(50.0, (thickness, 3.0, 0.5)),
+        lower=rn.Roller(radius=40.0),
+        normal=rn.LineLoad(0.12),
+        friction=friction,
+        tangential=rn.Traction(0.036 * friction),
+    )
+    assert over_claim(nip, "curved") <= 1.0
+
+
 @pytest.mark.parametrize("geometry", ["linear", "curved"])
 def test_claims_under_squeezed_coverings(geometry):
     """Nips 5 to 80 times as wide as their covering is thick; other ones for each seed."""

@@ -25,18 +25,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact.mesh import (
-    MEAN_POINTS,
-    MEAN_WEIGHTS,
     PIECES_PER_ELEMENT,
     Array,
     cubic_matrix,
+    gauss_points,
     with_means,
 )
 from rollnip.contact.problem import State
 
 ComplexArray = NDArray[np.complex128]
-
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def exponent_at_leading_edge(state: int, beta: float, friction: float) -> complex:
@@ -57,15 +54,21 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
 
 
 @lru_cache(maxsize=128)
-def left_out_of_tractions(kappa: complex) -> ComplexArray:
+def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
 
     That is the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
-    `Subdivision`), adjusted to have the means of that difference over the pieces. It is given at
-    the finer nodes of the first four elements from the edge inwards; beyond, the cubics are good
-    enough.
+    `Subdivision`), adjusted to have the means of that difference over the pieces.
+
+    Parameters
+    ----------
+    pieces : linear pieces of an element.
+
+    Returns
+    -------
+    (4 pieces + 1,) at the finer nodes from the edge inwards.
     """
-    t = np.arange(4 * PIECES_PER_ELEMENT + 1) / PIECES_PER_ELEMENT
+    t = np.arange(4 * pieces + 1) / pieces  # beyond, the cubics are good enough
     nodes = _root(np.arange(6.0), kappa)
     values = _root(t, kappa) - cubic_matrix(t, nodes.size) @ nodes
     out = with_means(values, _means_of_root(t, kappa) - _means_of_cubics(nodes, t))
@@ -74,7 +77,7 @@ def left_out_of_tractions(kappa: complex) -> ComplexArray:
 
 
 @lru_cache(maxsize=128)
-def left_out_of_creep(kappa: complex) -> complex:
+def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> complex:
     """Return rho, for the creep that linear pieces make in the edge element although all stick.
 
     At a leading edge up to which the surfaces stick that creep is Im[(p + i q) rho] times what a
@@ -84,19 +87,20 @@ def left_out_of_creep(kappa: complex) -> complex:
     where beta is -tanh(pi Im kappa).
     """
     count = 16  # elements: the further from the edge, the less they matter
-    t = np.arange(count * PIECES_PER_ELEMENT + 1) / PIECES_PER_ELEMENT
+    t = np.arange(count * pieces + 1) / pieces
     unit = np.eye(count + 2, dtype=complex)[1]
     acting = with_means(_root(t, kappa), _means_of_root(t, kappa))
     by_unit = with_means(cubic_matrix(t, unit.size) @ unit, _means_of_cubics(unit, t))
     # Quadrature points gather at both ends of a piece, where a logarithm may be singular.
-    x = 0.5 * (1.0 + _POINTS)
+    points, weights = gauss_points(16)
+    x = 0.5 * (1.0 + points)
     lengths = np.diff(t)[:, None]
     inside = t[:-1, None] + lengths * (x * x * (3.0 - 2.0 * x))
-    s, ds = inside**2, 2.0 * inside * lengths * (3.0 * _WEIGHTS * x * (1.0 - x))
+    s, ds = inside**2, 2.0 * inside * lengths * (3.0 * weights * x * (1.0 - x))
     left = (np.interp(s, t * t, acting) - _root(inside, kappa)) * ds
     kernel = np.log(np.abs(1.0 - s)) - np.log(s)
     along = (left * kernel).sum()
-    across = tanh(pi * kappa.imag) * pi * left[:PIECES_PER_ELEMENT].sum()
+    across = tanh(pi * kappa.imag) * pi * left[:pieces].sum()
     return complex((along + 1j * across) / (np.interp(s, t * t, by_unit) * ds * kernel).sum())
 
 
@@ -114,8 +118,9 @@ def _means_of_root(t: Array, kappa: complex) -> ComplexArray:
 
 def _means_of_cubics(nodes: ComplexArray, t: Array) -> ComplexArray:
     """Return the means over x between ``t`` of cubics through ``nodes``, x growing as t^2."""
-    inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + MEAN_POINTS)
-    weights = MEAN_WEIGHTS * inside  # dx is 2 t dt
+    points, weights = gauss_points(4)
+    inside = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + points)
+    weights = weights * inside  # dx is 2 t dt
     return np.asarray(
         (weights * (cubic_matrix(inside, nodes.size) @ nodes)).sum(1) / weights.sum(1)
     )

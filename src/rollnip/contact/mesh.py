@@ -24,12 +24,9 @@ FEWEST_ELEMENTS_OF_A_ZONE = 6
 # only where every zone is refined.
 LEAST_SHARE_OF_A_ZONE = 0.08
 _OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both edges, in lengths of the first element
-PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions
+PIECES_PER_ELEMENT = 2  # linear pieces of the acting tractions, at least
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd in zones longer than this many boundary layers
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digits are lost
-# Gauss points on [-1, 1] and their weights: as many as a cubic has nodes are exact for a cubic
-# times a slope dx/ds of the fourth degree, which a piece is short enough for.
-MEAN_POINTS, MEAN_WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +54,7 @@ class Subdivision:
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
+    pieces : number of linear pieces of an element, except those beyond both edges, which have one.
     """
 
     nodes: Array
@@ -67,6 +65,7 @@ class Subdivision:
     means: Array | None = None
     edges: tuple[int, ...] = ()
     exponents: tuple[complex, ...] = ()
+    pieces: int = 1
 
     @property
     def inner_breaks(self) -> list[int]:
@@ -82,10 +81,9 @@ class Subdivision:
 
     def sums(self, pieces: Array) -> Array:
         """Return, for each interval of the mesh's nodes[1:], the sum of ``pieces`` within it."""
-        if self.values is None:
-            return pieces
-        out = pieces[::2].copy()
-        out[:-1] += pieces[1:-1:2]
+        out = pieces[:: self.pieces].copy()
+        for part in range(1, self.pieces):
+            out[:-1] += pieces[part : -1 : self.pieces]
         return out
 
 
@@ -93,6 +91,7 @@ def subdivided(
     nodes: Array,
     elements: Indices,
     crowding: Crowding | None = None,
+    pieces: int = PIECES_PER_ELEMENT,
     edges: Sequence[int] = (),
     exponents: tuple[complex, ...] = (),
 ) -> Subdivision:
@@ -105,6 +104,8 @@ def subdivided(
     nodes : (N+1,) from `cosine_nodes` [mm].
     elements : in each zone, three or more; no cubic extends across a break.
     crowding : of each zone, as given to `cosine_nodes`.
+    pieces :
+        linear pieces of an element.
     edges :
         indices in nodes[1:-1] as in `Subdivision`; by default the first and the last.
     exponents :
@@ -112,13 +113,13 @@ def subdivided(
     """
     counts = tuple(elements.tolist())
     crowding = uncrowded(len(counts)) if crowding is None else crowding
-    values, acting, means = _cubics(counts, crowding)
-    finer = _cosine_values(tuple(PIECES_PER_ELEMENT * n for n in counts), crowding)
+    values, acting, means = _cubics(counts, crowding, pieces)
+    finer = _cosine_values(tuple(pieces * n for n in counts), crowding)
     finer = finer @ nodes[np.cumsum([1, *counts])]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
     exponents = exponents or (0j,) * len(edges)
-    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents)
+    return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, pieces)
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
@@ -206,9 +207,11 @@ def cubic_error(
 
 
 @lru_cache(maxsize=8)  # meshes of one size that differ only in the places of their breaks share it
-def _cubics(elements: tuple[int, ...], crowding: Crowding) -> tuple[Array, Array, Array]:
+def _cubics(
+    elements: tuple[int, ...], crowding: Crowding, pieces: int
+) -> tuple[Array, Array, Array]:
     """Return the matrices values, acting and means of a `Subdivision`."""
-    count, pieces = sum(elements), PIECES_PER_ELEMENT
+    count = sum(elements)
     values, acting = np.zeros((2, pieces * count + 3, count + 3))
     means = np.zeros((pieces * count + 1, count + 2))
     for matrix in (values, acting):
@@ -218,7 +221,7 @@ def _cubics(elements: tuple[int, ...], crowding: Crowding) -> tuple[Array, Array
     for n, ratio in zip(elements, crowding, strict=True):
         rows = row + pieces * n
         at_nodes = np.s_[row + 1 : rows + 2, column + 1 : column + n + 2]
-        zone = _zone_cubics(n, ratio)
+        zone = _zone_cubics(n, ratio, pieces)
         values[at_nodes], acting[at_nodes], means[row:rows, column : column + n + 1] = zone
         row, column = rows, column + n
     for matrix in (values, acting, means):
@@ -227,24 +230,32 @@ def _cubics(elements: tuple[int, ...], crowding: Crowding) -> tuple[Array, Array
 
 
 @lru_cache(maxsize=128)
-def _zone_cubics(n: int, ratio: tuple[float, float]) -> tuple[Array, Array, Array]:
+def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array, Array, Array]:
     """Return the block of one zone of ``n`` elements in the matrices of `_cubics`.
 
     That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
     between these, (pieces n, n + 1).
     """
-    pieces = PIECES_PER_ELEMENT
     finer = np.arange(pieces * n + 1) / pieces
     values = cubic_matrix(finer, n + 1)
-    # Means over x, by Gauss quadrature in the node index.
-    inside = finer[:-1, None] + 0.5 * (1.0 + MEAN_POINTS) / pieces
-    slope = MEAN_WEIGHTS * _places(inside / n, ratio)[1]
+    # Means over x, by Gauss quadrature in the node index. As many points as a cubic has nodes are
+    # exact for a cubic times a slope dx/ds of the fourth degree, which a piece is short enough for.
+    points, weights = gauss_points(4)
+    inside = finer[:-1, None] + 0.5 * (1.0 + points) / pieces
+    slope = weights * _places(inside / n, ratio)[1]
     means = (slope[..., None] * cubic_matrix(inside, n + 1)).sum(axis=1)
     means /= slope.sum(axis=1)[:, None]
     acting = with_means(values, means)
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
     return values, acting, means
+
+
+@lru_cache(maxsize=8)
+def gauss_points(count: int) -> tuple[Array, Array]:
+    """Return the Gauss points on [-1, 1], and their weights."""
+    points, weights = np.polynomial.legendre.leggauss(count)
+    return points, weights
 
 
 def with_means(values: NDArray[Number], means: NDArray[Number]) -> NDArray[Number]:

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Subdivision, left_out_of_creep, left_out_of_tractions
-from rollnip.contact.mesh import PIECES_PER_ELEMENT
 
 Array = NDArray[np.float64]
 
@@ -27,8 +26,8 @@ def unit_tractions(fine: Subdivision) -> Array | None:
         return unit
     left_out = np.zeros((unit.shape[0], sum(map(bool, fine.exponents))), dtype=complex)
     for column, (edge, kappa, inwards) in zip(left_out.T, _unlike_edges(fine), strict=True):
-        beside = left_out_of_tractions(kappa)
-        column[PIECES_PER_ELEMENT * edge + inwards * np.arange(beside.size)] = beside
+        beside = left_out_of_tractions(kappa, fine.pieces)
+        column[fine.pieces * edge + inwards * np.arange(beside.size)] = beside
     return np.concatenate([unit, left_out.real, left_out.imag], axis=1)
 
 
@@ -67,7 +66,7 @@ def _correct_creep_to_edges(fine: Subdivision, out: Array) -> None:
     for edge, kappa in zip(fine.edges[1::2], fine.exponents[1::2], strict=True):
         node = edge - 1
         creep = out[n + node]
-        rho = left_out_of_creep(kappa) * creep[n + node]
+        rho = left_out_of_creep(kappa, fine.pieces) * creep[n + node]
         creep[node] -= rho.imag
         creep[n + node] -= rho.real
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Subdivision
-from rollnip.contact.mesh import PIECES_PER_ELEMENT
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -242,7 +241,7 @@ class Mesh:
     @property
     def is_beside_edge(self) -> NDArray[np.bool_]:
         """Return which of the finer nodes[1:-1] lie at an edge or in the element inside it."""
-        edges, pieces = self.fine.edges, PIECES_PER_ELEMENT
+        edges, pieces = self.fine.edges, self.fine.pieces
         out = np.zeros(self.fine.nodes.size - 2, dtype=bool)
         for trailing, leading in zip(edges[::2], edges[1::2], strict=True):
             out[pieces * trailing : pieces * (trailing + 1)] = True

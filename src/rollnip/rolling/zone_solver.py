@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from rollnip.contact import (
     subdivided,
     uncrowded,
 )
-from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
+from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
 from rollnip.contact.problem import Indices
 from rollnip.influence import has_stiff_skin
 from rollnip.influence.surface import STIFF_SKIN
@@ -29,6 +30,12 @@ from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+
+# Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
+# pressure, and the width of a contact over its thickness for each linear piece of an element.
+_NEARLY_INCOMPRESSIBLE = 0.45
+_WIDTH_PER_PIECE = 7.0
+_MOST_PIECES = 16
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
@@ -55,6 +62,23 @@ class ZoneSolver:
     def _beta(self) -> float:
         return dundurs(self.nip)
 
+    def pieces(self, layout: Layout) -> int:
+        """Return the number of linear pieces of an element.
+
+        A thin incompressible covering on a rigid core moves as the second derivative of the
+        pressure, which linear pieces longer than its thickness cannot represent. The number does
+        not depend on that of the elements: pieces of the same length on all sizes of mesh would
+        leave the same error, which no comparison of sizes shows.
+        """
+        coverings = [
+            roller.coating_thickness
+            for roller in (self.nip.upper, self.nip.lower)
+            if not roller.is_rigid and roller.core is None
+            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
+        ]
+        wanted = layout.width / (_WIDTH_PER_PIECE * min(coverings, default=inf))
+        return int(np.clip(np.ceil(wanted), PIECES_PER_ELEMENT, _MOST_PIECES))
+
     def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
         """Return the crowding that resolves the boundary layers of each zone.
 
@@ -70,14 +94,14 @@ class ZoneSolver:
         nodes = cosine_nodes(layout.breaks, *shape)
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
         exponents = layout.edge_exponents(self._beta, self.nip.friction)
-        fine = subdivided(nodes, *shape, edges, exponents)
+        fine = subdivided(nodes, *shape, self.pieces(layout), edges, exponents)
         return mesh_on(nodes, kernels, fine)
 
     def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on roughly known zones, to seek states node by node."""
         shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
         nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape)
+        fine = subdivided(nodes, *shape, self.pieces(zones))
         return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
     @cached_property

@@ -10,6 +10,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.model import Model
+from rollnip.rolling import free_ends
 from rollnip.solver import _too_slippery, _too_thin, solve
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
@@ -146,8 +147,10 @@ def test_first_solve_of_a_fresh_process_prepares_little():
 
 
 @pytest.mark.parametrize("friction", [0.0, pytest.param(0.3, marks=pytest.mark.slow)])
-def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction):
+def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction, monkeypatch):
     """It said "try a smaller tolerance": the finest mesh was reached, and a larger one helps."""
+    # With three times as many elements it is solved, and only absurd films are not.
+    monkeypatch.setattr(free_ends, "_MOST_TIMES_FIRST", 1.0)
     film = rn.Roller(radius=50.0, layers=[rn.Layer(5e-5, RUBBER)])
     nip = replace(NIP, upper=film, normal=rn.LineLoad(3.0), friction=friction)
     found = solve(nip, Model(geometry="linear", tolerance=1e-3))
@@ -156,6 +159,7 @@ def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction):
     assert "accept it with a larger tolerance. The covering of the upper roller is" in found.status
     times = 0.5 * found.nip_width / 5e-5
     assert f"is {times:.0f} times thinner than half the nip width" in found.status
+    monkeypatch.undo()
     if friction:
         assert solve(nip, Model(geometry="linear", tolerance=0.1)).converged
     assert "give its Poisson ratio, 0.5 - E/(6 K)," in found.status

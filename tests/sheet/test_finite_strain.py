@@ -190,9 +190,9 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
 @pytest.mark.parametrize("share", [0.5, 0.25])
 def test_with_more_elements_torques_beside_a_slipping_edge_are_the_moments(monkeypatch, share):
     monkeypatch.setattr(strip, "_PER_FOLD", 2.0 * strip._PER_FOLD)
-    # Whether a share settles is chance at such stretches (39 of 40 loads from 1.5 to 1.9 did), and
-    # so is what short waves leave: 4e-5 to 4e-4.
-    loads = (1.77, 1.772, 1.775, 1.778, 1.78)
+    # Whether a share settles is chance at such stretches (a half does at 15 of 20 loads from 1.5 to
+    # 1.9), and so is what short waves leave: 4e-5 to 4e-4. These loads settle with both.
+    loads = (1.5, 1.6, 1.772, 1.8, 1.85)
     solved = [_driven_hard(load, (share,), monkeypatch) for load in loads]
     apart = [
         abs(one.torque_upper / nip.upper.radius - deformed_moment(one, 0)) / one.traction

@@ -81,9 +81,10 @@ class ZoneSearch:
         is_placed: bool,
         is_near: bool,
     ) -> Iterator[SearchState]:
-        """Yield the other zones that a solution calls for, in the order to try them.
+        """Yield the zones that a solution calls for, in the order to try them.
 
-        There are none if the solution is consistent with its own zones.
+        There are none if the solution is consistent with its own zones. Once its ends are placed
+        they may be its own zones with other ends.
 
         Parameters
         ----------

@@ -129,7 +129,7 @@ def test_edges_under_a_stiff_skin_take_few_meshes(share, stiffness):
     assert solution.solver.iterations <= plain.solver.iterations + 9
 
 
-def test_a_stick_zone_where_slip_reverses_is_placed_to_a_part_of_its_length():
+def test_a_stick_zone_that_is_too_short_where_slip_reverses_is_made_longer():
     """Shorter than it should be, it asks for small moves: its creepage was off by 0.55 %."""
     soft = rn.Layer(1.3226893541772022, rn.Elastic(modulus=2.215529993893483, poisson=0.3))
     hard = rn.Layer(1.3226893541772022, rn.Elastic(modulus=14.799308948285434, poisson=0.45))

@@ -195,8 +195,9 @@ def _iterate(
         if not found.settled:
             cause = "contact"
             break
-        is_like = stage is was or latest.is_placed  # unlike one found node by node
-        mixer = mixer if is_like else AndersonMixer(places_by_the_edges(_edges(latest)))
+        # Corrections of contacts found node by node say little of those with free ends.
+        goes_on = stage is was or latest.is_placed
+        mixer = mixer if goes_on else AndersonMixer(places_by_the_edges(_edges(latest)))
         latest = found
     if best.found is None:
         return IterationFailure(cause, iterations, change)

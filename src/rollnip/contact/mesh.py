@@ -255,6 +255,8 @@ def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array
 def gauss_points(count: int) -> tuple[Array, Array]:
     """Return the Gauss points on [-1, 1], and their weights."""
     points, weights = np.polynomial.legendre.leggauss(count)
+    for array in (points, weights):
+        array.setflags(write=False)
     return points, weights
 
 

@@ -26,7 +26,7 @@ _OUTER_EDGE_GROWTH = 0.4  # as _EDGE_GROWTH, beside the tractions, where the ski
 # are within 2e-4 of those with 0.1; with 1 they are a few per cent off.
 _OVER_SQUEEZED = 0.4
 # Elements under the tractions, at most. Incompressible coverings that would need more have a
-# half-width of more than 200 times their thickness; their contact is not verified.
+# half-width of more than 200 times their thickness; then columns are longer.
 _MOST_COLUMNS = 1024
 _INSIDE = 4.0  # longest element anywhere under the tractions, over `skin`
 # Beside the tractions; "thickness" is that of the covering, at least _LEAST_THICKNESS half-widths.

@@ -167,9 +167,10 @@ class Placing:
         ends to second order. Where it is not known how much, ends count that are placed a tenth as
         exactly as where figures do not decide.
         """
-        if search.end_error is None:
+        end_error = search.end_error
+        if end_error is None:
             return search.misplacement > NEGLIGIBLE**2 * self.model.tolerance
-        changed = replace(search.latest, error=search.end_error)
+        changed = replace(search.latest, error=end_error)
         return error_ratio(self.nip, changed, self.model.tolerance) > NEGLIGIBLE
 
     def _exceeds_bound(self, latest: MeshSolution) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf
+from math import ceil, inf
 
 import numpy as np
 
@@ -32,10 +32,10 @@ from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
-# pressure, and the width of a contact over its thickness for each linear piece of an element.
+# pressure.
 _NEARLY_INCOMPRESSIBLE = 0.45
-_WIDTH_PER_PIECE = 7.0
-_MOST_PIECES = 16
+_WIDTH_PER_PIECE = 7.0  # of the contact, in thicknesses of such a covering
+_MOST_PIECES = 16  # bounds memory
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
@@ -62,6 +62,17 @@ class ZoneSolver:
     def _beta(self) -> float:
         return dundurs(self.nip)
 
+    @cached_property
+    def thinnest_incompressible(self) -> float:
+        """Thickness of the thinner incompressible covering on a rigid core; inf if none [mm]."""
+        coverings = [
+            roller.coating_thickness
+            for roller in (self.nip.upper, self.nip.lower)
+            if not roller.is_rigid and roller.core is None
+            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
+        ]
+        return min(coverings, default=inf)
+
     def pieces(self, layout: Layout) -> int:
         """Return the number of linear pieces of an element.
 
@@ -70,14 +81,8 @@ class ZoneSolver:
         not depend on that of the elements: pieces of the same length on all sizes of mesh would
         leave the same error, which no comparison of sizes shows.
         """
-        coverings = [
-            roller.coating_thickness
-            for roller in (self.nip.upper, self.nip.lower)
-            if not roller.is_rigid and roller.core is None
-            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-        ]
-        wanted = layout.width / (_WIDTH_PER_PIECE * min(coverings, default=inf))
-        return int(np.clip(np.ceil(wanted), PIECES_PER_ELEMENT, _MOST_PIECES))
+        wanted = ceil(layout.width / (_WIDTH_PER_PIECE * self.thinnest_incompressible))
+        return max(min(wanted, _MOST_PIECES), PIECES_PER_ELEMENT)
 
     def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
         """Return the crowding that resolves the boundary layers of each zone.

@@ -280,14 +280,13 @@ class PlateSearch:
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
         change, settled_change = 0.0, min(_STILL[0] * self.model.tolerance, _STILL[1])
-        state = system.solved(lagged)
+        state, steps = system.solved(lagged), steps + 1
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
-            steps += 1
             if has_no_terms(problem.nip, self.model.geometry):
                 break
             updated = lagged_terms(problem, self.model.geometry, state, lagged)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated
-            state = system.solved(lagged)
+            state, steps = system.solved(lagged), steps + 1
             if not change > settled_change:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)

@@ -148,6 +148,24 @@ def test_how_far_turns_got_is_said(monkeypatch):
     assert float(said[2]) > 10.0 * solution.model.tolerance
 
 
+def test_a_correction_at_rest_that_violates_the_conditions_is_given_up_at_once(monkeypatch):
+    """As where a surface pushed out of the nip bulges into the other one, beyond the edge."""
+
+    def violated(*given):
+        return replace(with_own_correction(*given), residual=3e-3)
+
+    with_own_correction = iteration._with_own_correction
+    monkeypatch.setattr(iteration, "_with_own_correction", violated)
+    solution = rn.solve(stretched(0.05))
+    said = re.fullmatch(
+        r'No solution of geometry "finite" was found: its terms beyond the linear ones settled in '
+        r"(\d+) iterations of contact and correction, but its surfaces overlap or slip against "
+        r'their shear there\. All figures are those of geometry "second"\.',
+        solution.warnings[0],
+    )
+    assert int(said[1]) < 0.5 * iteration.MOST_CORRECTIONS
+
+
 @pytest.mark.slow
 def test_an_edge_stretched_to_three_times_its_length_is_solved_with_fewer_waves():
     """A thin covering that is driven hard gave way to "curved", 25 % off in the approach."""

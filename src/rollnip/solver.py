@@ -258,6 +258,11 @@ def _how_far(failure: IterationFailure) -> str:
             f"correction (in it, its terms beyond the linear ones changed by {change} of the "
             "first-order ones)"
         )
+    if failure.cause == "conditions":
+        return (
+            f"its terms beyond the linear ones settled in {done} iterations of contact and "
+            "correction, but its surfaces overlap or slip against their shear there"
+        )
     return (
         f"its terms beyond the linear ones did not settle in {done} iterations of contact and "
         f"correction (they last changed by {change} of the first-order ones)"

@@ -74,6 +74,9 @@ SAID = {
     'last changed by 0.2 of the first-order ones). All figures are those of geometry "second".': (
         "Endliche Dehnung, zweite Ordnung"
     ),
+    'No solution of geometry "finite" was found: its terms beyond the linear ones settled in 15 '
+    "iterations of contact and correction, but its surfaces overlap or slip against their shear "
+    'there. All figures are those of geometry "second".': "kamen in 15 Schritten",
     "The nip could not be solved on the way: Contact, stick and slip did not settle; try "
     '`geometry = "linear"`, a smaller load or another tolerance.': "kleinere Last",
     "Layer 2 (from the surface) of the lower roller, 3 mm thick, is pressed in by 61 % of its "

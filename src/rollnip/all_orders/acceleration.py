@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
@@ -16,15 +17,20 @@ from rollnip.rolling.displacements import Field, SecondFields, Stretch, Weighted
 
 Array = NDArray[np.float64]
 _PLACES_COMPARED = 65  # places at which they are compared
+# Iterations whose corrections are combined. Older ones show how a correction far away responded: of
+# 106 driven nips with much friction 103 settle with all of them, and all 106 with three.
+_COMBINED = 3
 
 
 @dataclass
 class AndersonMixer:
     """Anderson acceleration of the corrections (Anderson 1965, J. ACM 12, 547-560).
 
-    Of all iterations it keeps the correction that the solution led to and its difference from the
-    one that the contact was solved with. The next correction is the combination of the former
-    for which the same combination of the differences is smallest.
+    Of the last three iterations it keeps the correction that the solution led to and its difference
+    from the one that the contact was solved with. The next correction is the combination of the
+    former for which the same combination of the differences is smallest. Changes of the differences
+    are compared by their directions: they shrink as the iteration converges, and the last ones
+    count as much as those before.
 
     Attributes
     ----------
@@ -34,8 +40,8 @@ class AndersonMixer:
     """
 
     x: Array
-    results: list[SecondFields] = field(default_factory=list)
-    residuals: list[Array] = field(default_factory=list)
+    results: deque[SecondFields] = field(default_factory=lambda: deque(maxlen=_COMBINED))
+    residuals: deque[Array] = field(default_factory=lambda: deque(maxlen=_COMBINED))
 
     def mixed(self, held: SecondFields, new: SecondFields) -> SecondFields:
         """Return the correction to solve with next.
@@ -49,7 +55,9 @@ class AndersonMixer:
         if len(self.results) == 1:
             return new
         steps = np.diff(np.array(self.residuals), axis=0)
-        back = np.linalg.lstsq(steps.T, residual, rcond=1e-3)[0]
+        lengths = np.maximum(np.linalg.norm(steps, axis=1), np.finfo(float).tiny)
+        directions = steps / lengths[:, None]
+        back = np.linalg.lstsq(directions.T, residual, rcond=1e-2)[0] / lengths
         return _weighted_sum(np.append(back, 1.0) - np.append(0.0, back), self.results)
 
 
@@ -114,9 +122,11 @@ class BestSolution(Generic[Found]):
     violation: float = inf
 
     def may_stop(self, found: Found, violation: float, to_come: float, cut: float = 0.0) -> bool:
-        """Compare a further solution; return whether the iteration may stop with the best one.
+        """Compare a further solution; return whether the iteration may stop.
 
-        It may when the violation or the changes to come are small, or the violation grew again.
+        It may stop with a solution when the violation or the changes to come are small, or the
+        violation grew again. It may stop without one when the changes to come are small and the
+        violation exceeds the tolerance by more than such changes.
 
         Parameters
         ----------
@@ -129,4 +139,6 @@ class BestSolution(Generic[Found]):
         if violation <= min(1.0, before):
             self.found = found
         enough = CONVERGED * max(1.0, cut)
-        return self.found is not None and (min(violation, to_come) <= enough or violation > before)
+        if self.found is None:
+            return to_come <= enough < violation - 1.0
+        return min(violation, to_come) <= enough or violation > before

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from math import inf
-from typing import Literal
 
 from rollnip._largest import largest
 from rollnip.all_orders.acceleration import AndersonMixer, BestSolution, places_by_the_edges
@@ -32,7 +31,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Stretch
 from rollnip.rolling.iterations import change_of, with_residual
-from rollnip.rolling.mesh_solution import IterationFailure, MeshSolution
+from rollnip.rolling.mesh_solution import FailureCause, IterationFailure, MeshSolution
 from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.surfaces import PairKernels
 
@@ -163,7 +162,7 @@ def _iterate(
     change, restarts, mixer = inf, 0, AndersonMixer(places_by_the_edges(_edges(latest)))
     best = BestSolution[tuple[PairKernels, MeshSolution]]()
     iterations = 0
-    cause: Literal["balance", "contact", "iterations"] = "iterations"
+    cause: FailureCause = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
             new, is_full_load = correction.of_contact(latest, kernels)
@@ -177,6 +176,7 @@ def _iterate(
             checked = _with_own_correction(nip, model, updated, latest, change)
             violation, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if best.may_stop((updated, checked), violation, change / model.tolerance, cut):
+                cause = "conditions"
                 break
             if iteration == 0:  # with a correction of other tractions: no measure for later ones
                 best = BestSolution()

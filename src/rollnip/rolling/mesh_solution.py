@@ -87,6 +87,9 @@ class SecondaryFigures:
         return np.array([getattr(self, name) for name in self.__dataclass_fields__])
 
 
+FailureCause = Literal["depth", "balance", "contact", "conditions", "iterations"]
+
+
 @dataclass(frozen=True, slots=True)
 class IterationFailure:
     """Why the finite-strain iteration of contact and correction failed, and how far it got.
@@ -94,13 +97,14 @@ class IterationFailure:
     Attributes
     ----------
     cause : before the first iteration a layer was pressed in by its whole thickness ("depth"), no
-        equilibrium was found ("balance"), contact, stick and slip did not settle ("contact"), or
-        the correction still changed after the last iteration allowed ("iterations").
+        equilibrium was found ("balance"), contact, stick and slip did not settle ("contact"), the
+        correction settled where it violates the contact conditions ("conditions"), or it still
+        changed after the last iteration allowed ("iterations").
     iterations : how often a correction was found.
     change : last change of the correction, over the first-order terms; inf if there was none.
     """
 
-    cause: Literal["depth", "balance", "contact", "iterations"]
+    cause: FailureCause
     iterations: int
     change: float
 

@@ -57,6 +57,7 @@ export const SOLVER_DE = {
   "solver.why-balance": "seine Spannungen haben kein Gleichgewicht, oder es wurde keines gefunden, auch nicht für ein Sechzehntel von ihnen",
   "solver.why-balance-later": "seine Spannungen haben im Schritt {turn} von Kontakt und Korrektur kein Gleichgewicht, oder es wurde keines gefunden (im Schritt davor änderten sich seine Glieder jenseits der linearen um {change} der Glieder erster Ordnung)",
   "solver.why-contact": "Kontakt, Haften und Gleiten kamen im Schritt {turn} von Kontakt und Korrektur nicht zur Ruhe (in ihm änderten sich seine Glieder jenseits der linearen um {change} der Glieder erster Ordnung)",
+  "solver.why-conditions": "seine Glieder jenseits der linearen kamen in {turns} Schritten von Kontakt und Korrektur zur Ruhe, aber dort überlappen sich seine Oberflächen oder gleiten gegen ihren Schub",
   "solver.why-turns": "seine Glieder jenseits der linearen kamen in {turns} Schritten von Kontakt und Korrektur nicht zur Ruhe (zuletzt änderten sie sich um {change} der Glieder erster Ordnung)",
   "solver.why-zones": "seine Zonen oder seine {terms} kamen nicht zur Ruhe",
   "solver.why-settle": "Kontakt, Haften und Gleiten kamen nicht zur Ruhe",

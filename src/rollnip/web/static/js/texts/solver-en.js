@@ -57,6 +57,7 @@ export const SOLVER_EN = {
   "solver.why-balance": "no equilibrium was found under its tractions, nor under a sixteenth of them",
   "solver.why-balance-later": "no equilibrium was found under its tractions in iteration {turn} of contact and correction (in the iteration before, its terms beyond the linear ones changed by {change} of the first-order ones)",
   "solver.why-contact": "contact, stick and slip did not settle in iteration {turn} of contact and correction (in it, its terms beyond the linear ones changed by {change} of the first-order ones)",
+  "solver.why-conditions": "its terms beyond the linear ones settled in {turns} iterations of contact and correction, but its surfaces overlap or slip against their shear there",
   "solver.why-turns": "its terms beyond the linear ones did not settle in {turns} iterations of contact and correction (they last changed by {change} of the first-order ones)",
   "solver.why-zones": "its zones or its {terms} did not settle",
   "solver.why-settle": "contact, stick and slip did not settle",

@@ -36,6 +36,7 @@ from rollnip.rolling import (
     PairKernels,
     half_width_guess,
     has_grip,
+    long_columns,
     pair_kernels,
     refine,
 )
@@ -46,10 +47,9 @@ from rollnip.verdict import ACCEPT_IT, verdict, violated
 
 # A traction above this multiple of a limit exceeds it even where the limit is known only roughly.
 _CLEARLY = 1.5
-# Thickness of a covering over half the nip width, below which the elements cannot follow the
-# pressure on a hardly compressible one.
+# Thickness of a covering over half the nip width, below which rubber gives way by its change of
+# volume, too, and takes fewer elements with it.
 _THIN = 0.025
-_HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
 _DIVERGED = 0.1  # last relative change of second-order terms from which they count as diverged
 # The advice that `rollnip.volume` gives, too.
 _VOLUME = (
@@ -295,7 +295,7 @@ def _check(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """
     is_verified, status = _first_failure(nip, model, final)
     if not is_verified:
-        status += _too_thin(nip, final) + _too_slippery(nip, model)
+        status += _too_thin(nip, model, final) + _too_slippery(nip, model)
     return is_verified, status
 
 
@@ -348,21 +348,26 @@ def _may_spin(nip: Nip, final: MeshSolution) -> bool:
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
 
 
-def _too_thin(nip: Nip, final: MeshSolution) -> str:
-    """Return a sentence on a covering too thin and too incompressible for the mesh; "" if none."""
-    half = 0.5 * final.figures.nip_width
+def _too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
+    """Return a sentence on a covering so thin that it cannot only flow sideways; "" if none.
+
+    In "finite" it says, too, where columns of elements are too long for the tolerance.
+    """
+    half, out = 0.5 * final.figures.nip_width, ""
+    if model.geometry == "finite" and long_columns(nip, final) > model.tolerance:
+        out = (
+            " The columns of finite elements are too long for so thin a covering: take `geometry = "
+            '"curved"`, which needs none.'
+        )
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
             continue
-        poisson = min(layer.material.poisson for layer in roller.layers)
-        if poisson >= _HARDLY_COMPRESSIBLE:
-            sentence = (
+        if all(layer.material.poisson == 0.5 for layer in roller.layers):
+            return out + (
                 f" The covering of the {name} roller is {half / roller.coating_thickness:.0f} "
-                "times thinner than half the nip width and hardly compressible: no mesh of this "
-                "program follows the pressure on it more closely."
+                f"times thinner than half the nip width.{_VOLUME}"
             )
-            return sentence + (_VOLUME if poisson == 0.5 else "")
-    return ""
+    return out
 
 
 def _too_slippery(nip: Nip, model: Model) -> str:

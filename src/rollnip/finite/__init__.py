@@ -10,6 +10,7 @@ evaluates the fields inside, `power` the heat.
 """
 
 from rollnip.finite._spline import Spline
+from rollnip.finite.columns import error_of_long_columns
 from rollnip.finite.equilibrium import Body
 from rollnip.finite.follower_load import Tractions
 from rollnip.finite.nodal_tractions import linear_between_nodes
@@ -40,6 +41,7 @@ __all__ = [
     "Tractions",
     "deformed_surface",
     "element_fields",
+    "error_of_long_columns",
     "linear_between_nodes",
     "linear_surface",
     "present_place",

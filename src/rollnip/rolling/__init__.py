@@ -25,6 +25,7 @@ from rollnip.rolling.check import (
 )
 from rollnip.rolling.claimed_errors import (
     claims,
+    long_columns,
     model_shares,
     relative_claims,
     secondary_claims,
@@ -68,6 +69,7 @@ __all__ = [
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
+    "long_columns",
     "model_shares",
     "pair_kernels",
     "peak_at",

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from rollnip.contact import Layout, elements_of_zones
 from rollnip.contact.secants import Secants
 from rollnip.rolling.estimates import length_change_ratio
+from rollnip.rolling.lengths import creepage_by_ends
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
@@ -75,8 +76,11 @@ class EndSearch:
     @property
     def end_error(self) -> Figures | None:
         """Change of each figure that the misplacement may cause; None: not known."""
-        moved = self.next_layout.distance(self.layout)
-        return None if self.end_sensitivity is None else self.end_sensitivity.times(moved)
+        if self.end_sensitivity is None:
+            return None
+        error = self.end_sensitivity.times(self.next_layout.distance(self.layout))
+        unseen = creepage_by_ends(self.solver.nip, self.layout, self.proposed)
+        return replace(error, creepage=error.creepage + unseen)
 
     def solve_mesh(self) -> None:
         """Solve on the next mesh, and find where its solution puts the ends."""

@@ -21,6 +21,7 @@ from rollnip.rolling.mesh_solution import (
     SecondaryFigures,
     creepage_scale,
 )
+from rollnip.rolling.overlooked import overlooked_states
 from rollnip.rolling.secondary import secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -83,6 +84,7 @@ def with_errors(
     if not isinstance(nip.tangential, Creepage):
         creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
         creepage += sum(creepage_by_slip(nip, figures, one) for one in latest.slip_left_out)
+        creepage += overlooked_states(latest)[1]
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(nip, latest, history).array() + unseen
     if end_error is not None:

@@ -19,6 +19,7 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch
+from rollnip.rolling.lengths import thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
@@ -165,11 +166,13 @@ class Placing:
 
         All figures but the width are linear functionals of the tractions, so they depend on the
         ends to second order. Where it is not known how much, ends count that are placed a tenth as
-        exactly as where figures do not decide.
+        exactly as where figures do not decide, over the width or the thickness of a thin covering.
         """
         end_error = search.end_error
         if end_error is None:
-            return search.misplacement > NEGLIGIBLE**2 * self.model.tolerance
+            length = min(search.layout.width, thinnest_covering(self.nip))
+            most = NEGLIGIBLE**2 * self.model.tolerance * length
+            return search.misplacement * search.layout.width > most
         changed = replace(search.latest, error=end_error)
         return error_ratio(self.nip, changed, self.model.tolerance) > NEGLIGIBLE
 

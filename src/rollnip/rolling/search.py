@@ -25,8 +25,14 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.lengths import is_negligible, negligible_slip, shortest_zone
+from rollnip.rolling.lengths import (
+    is_negligible,
+    negligible_change,
+    negligible_slip,
+    shortest_zone,
+)
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
+from rollnip.rolling.overlooked import overlooked_states
 from rollnip.rolling.surfaces import Array
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
@@ -108,8 +114,16 @@ class ZoneSearch:
             # Until they are placed the ends of the same zones move anyway.
             if found is not None and (is_placed or not found.layout.is_like(layout)):
                 yield found
-        if not is_placed:
-            return
+        if is_placed:
+            yield from self._beyond_states(latest, layout, proposed)
+
+    def _beyond_states(
+        self, latest: MeshSolution, layout: Layout, edges: Layout
+    ) -> Iterator[SearchState]:
+        """Yield the zones called for by a solution with placed ends whose nodes keep their states.
+
+        ``edges``: its zones with the ends where it puts them.
+        """
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
             yield SearchState(slipping, latest)
@@ -117,6 +131,19 @@ class ZoneSearch:
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
                 yield SearchState(opened, latest)
+        overlooked = self.overlooked(latest, edges)
+        if overlooked is not None:
+            yield overlooked
+
+    def overlooked(self, latest: MeshSolution, edges: Layout) -> SearchState | None:
+        """Return the zones between given edges with slip and stick whose violations are small.
+
+        Return None where they change the creepage by no more than slip that is left out may.
+        """
+        wanted, change = overlooked_states(latest)
+        if change <= negligible_change(self.nip, self.model, latest.figures):
+            return None
+        return self.between_edges(latest, wanted, edges)
 
     def changed_states(
         self, latest: MeshSolution, layout: Layout, *, checks_contact: bool

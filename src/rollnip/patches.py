@@ -27,6 +27,7 @@ PATCH_TOLERANCE = 5e-3
 
 _FREE = Creepage(0.0)
 _LARGEST_SLOPE = 0.999
+_LARGEST_LOAD = 1e12  # N; beyond it a unit was mistaken
 """An end radius is followed to where it is this steep, short of upright."""
 
 
@@ -245,7 +246,10 @@ class Patch:
 
     def _check_forces(self) -> None:
         if isinstance(self.normal, Force):
-            require_positive("load", self.normal.force)
+            if require_positive("load", self.normal.force) > _LARGEST_LOAD:
+                raise InvalidInputError(
+                    f"`load` must be at most 1e12 N, got {self.normal.force:g} N."
+                )
         else:
             require_approach(self.upper, self.lower, self.normal.approach)
         given = [f.force for f in (self.along, self.across) if isinstance(f, Force)]

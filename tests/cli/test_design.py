@@ -60,6 +60,10 @@ def ask(case, *, wanted="nip_width=0.4 mm", between=("10 N/mm", "2 kN/mm"), path
     return ("find", case, path, "--for", wanted, "--between", *between, "--geometry", "linear")
 
 
+def test_a_tolerance_of_find_is_named_by_its_option(case):
+    assert refused(*ask(case), "--tolerance", "0").startswith("rollnip: --tolerance: `tolerance`")
+
+
 def test_find_says_what_where_and_how_sure(case):
     result = run(*ask(case))
     assert result.exit_code == 0

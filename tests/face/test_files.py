@@ -1,6 +1,7 @@
 """Faces from case files and on the command line."""
 
 import json
+import tomllib
 from dataclasses import replace
 from io import StringIO
 from math import inf, isnan
@@ -425,6 +426,19 @@ def test_load_along_crown_is_swept():
         alone = rn.solve_face(nip, case.face, case.model)
         assert table["face.evenness"][i] == alone.evenness
         assert table["face.total_load"][i] == alone.total_load
+
+
+@pytest.mark.parametrize("command", ["solve", "crown"])
+@pytest.mark.parametrize("side", ["upper", "lower"])
+def test_a_shaft_that_does_not_fit_is_named_with_its_file(tmp_path, command, side):
+    """Both rollers have a shaft: the sentence says which one is meant."""
+    tree = tomllib.loads(EXAMPLE.read_text("utf-8"))
+    tree[side]["shaft"]["bore"] = "1 m"
+    (tmp_path / "bored.json").write_text(json.dumps(tree), "utf-8")
+    found = run("face", command, tmp_path / "bored.json")
+    assert (found.exit_code, found.stdout) == (2, "")
+    assert "bored.json: `bore` must be smaller than the core's diameter, " in found.stderr
+    assert found.stderr.endswith(f"mm, got 1000 mm (in `{side}.shaft`).\n")
 
 
 def test_fewer_than_one_process_is_refused():

@@ -102,6 +102,18 @@ def test_interfaces(solved):
     assert plate.von_mises_max == pytest.approx(above.von_mises.max(), rel=1e-6)
 
 
+@pytest.mark.parametrize("load", [0.3, 1e-4])
+def test_shear_of_a_deep_bond_counts_where_it_is_largest(load):
+    """Some half of the depth away from a nip that is narrower than that."""
+    deep = rn.Roller(radius=100.0, layers=[rn.Layer(22.0, elastic(3.0, 0.5))])
+    nip = rn.Nip(upper=deep, lower=rn.Roller(radius=75.0), normal=rn.LineLoad(load), friction=0.3)
+    bond = rn.solve(nip, rn.Model(geometry="linear")).interfaces[0]
+    assert bond.shear_max_x == pytest.approx(-0.53 * 22.0, rel=0.04)
+    assert bond.shear_range == pytest.approx(2.0 * bond.shear_max, rel=1e-3)
+    # p/h of a line load on an incompressible layer: the same for any narrow nip
+    assert bond.shear_max * 22.0 / load == pytest.approx(0.324, rel=0.02)
+
+
 @pytest.mark.parametrize("roller", ["upper", "lower"])
 def test_every_depth_carries_the_load(solved, roller):
     """Balance of a strip: int s_zz dx = -F and int s_xz dx = -+T in flat layers.

@@ -29,6 +29,19 @@ def test_hertz():
     # Johnson 1985, 4.2: 0.30 p0 at 0.78 a
 
 
+def test_far_below_a_narrow_nip_lies_the_field_of_a_line_load():
+    """Flamant (1892): s_zz = -2 F z^3/(pi r^4), s_xz = -2 F x z^2/(pi r^4) for a load at x = 0."""
+    a, z, x = 0.01, np.array([20.0, 90.0]), np.linspace(-0.03, 0.03, 7)
+    tractions = SurfaceTractions(graded(a), np.zeros(121), np.sqrt(1.0 - (graded(a) / a) ** 2))
+    load = np.trapezoid(tractions.t_z, tractions.nodes)
+    got = interior_field(ROLLERS["half-space"], tractions, z, x, geometry="linear")
+    radius = np.hypot(x, z[:, None])
+    scale = -2.0 * load * z[:, None] / (np.pi * radius**4)
+    # the width of the nip changes it by (a/z)^2
+    assert got.s_zz == pytest.approx(scale * z[:, None] ** 2, rel=1e-6)
+    assert got.s_xz == pytest.approx(scale * z[:, None] * x, rel=1e-6, abs=1e-12)
+
+
 @pytest.mark.parametrize(
     ("name", "geometry"),
     [

@@ -378,3 +378,13 @@ def test_a_tolerance_of_zero_is_refused(tmp_path, command):
     found = CliRunner().invoke(app, [*command, str(case), "--tolerance", "0"])
     assert found.exit_code == 2
     assert "`tolerance` must be positive and finite, got 0.0." in found.stderr
+
+
+def test_stresses_that_are_not_verified_say_why(tmp_path):
+    """The table alone looks as right as any other."""
+    path = tmp_path / "deep.toml"
+    path.write_text(WHEEL.replace("0.2 kN", "20 kN"), "utf-8")
+    done = CliRunner().invoke(app, ["patch", "stress", str(path), "--depth", "4 mm"])
+    assert done.exit_code == 1
+    assert "largest stresses in the upper roller" in done.stdout
+    assert done.stderr.startswith(f"rollnip: {path}: not converged: The coverings, 8 mm thick, are")

@@ -344,6 +344,7 @@ def test_without_friction_nothing_shears():
 
 WRONG = [
     ({"normal": rn.Force(-1.0)}, "`load` must be positive"),
+    ({"normal": rn.Force(1e300)}, "`load` must be at most 1e12 N, got 1e\\+300 N"),
     ({"along": rn.Force(130.0)}, "must be smaller than friction \\* load"),
     ({"lower": rn.Roller(radius=50.0), "upper": rn.Roller(radius=50.0)}, "bare rigid cores"),
     ({"across_upper": rn.Across()}, "must bound the patch"),
@@ -362,6 +363,22 @@ def test_rigid_cores_do_not_meet():
     layer = rn.Layer(3.0, rn.Elastic(modulus=3.6, poisson=0.5))
     with pytest.raises(rn.InvalidInputError, match="smaller than the coverings are thick, 3 mm"):
         wheel(upper=rn.Roller(radius=60.0, layers=(layer,)), normal=rn.Approach(3.0))
+
+
+@pytest.mark.parametrize("load", [1e6, 1e12])
+def test_no_patch_is_as_long_as_its_rollers(load):
+    with pytest.raises(rn.InvalidInputError, match="`load` must be small enough for a patch short"):
+        rn.solve_patch(wheel(normal=rn.Force(load)))
+
+
+def test_coverings_pressed_in_by_half_are_not_solved():
+    """An approach of the whole thickness is refused; a load that leads that far is no solution."""
+    layer = rn.Layer(3.0, rn.Elastic(modulus=3.6, poisson=0.45))
+    soft = wheel(upper=rn.Roller(radius=60.0, layers=(layer,)), normal=rn.Force(3000.0))
+    found = rn.solve_patch(replace(soft, friction=0.0, along=rn.Force(0.0)), tolerance=0.05)
+    assert found.approach > 1.5
+    assert not found.converged
+    assert "beyond 50 % small strain does not hold. Lower the load" in found.status
 
 
 def test_shapes_across():

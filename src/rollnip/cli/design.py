@@ -32,6 +32,7 @@ _FIND_OPTIONS = {
     "wanted": "--for",
     "quantity": "--for",
     "points": "--points",
+    "tolerance": "--tolerance",
     "low": "--between",
     "high": "--between",
 }

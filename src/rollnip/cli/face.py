@@ -64,7 +64,7 @@ def solve(
         from rollnip.face import solve_face
         from rollnip.face.report import face_dict, face_lines
 
-        with _processes(workers) as executor, counting() as progress:
+        with _processes(workers) as executor, counting() as progress, named(case):
             solution = solve_face(nip, along, model, executor=executor, progress=progress)
         _draw(solution, plot)
         lines = face_lines(solution, units=system)
@@ -103,7 +103,8 @@ def crown(
         with named("--within"):
             share = parse_quantity(within, "ratio")
             require_share(share)
-        best = even_crown(nip, along, model, roller=name)
+        with named(case):
+            best = even_crown(nip, along, model, roller=name)
         crowned = with_crown(nip, name, Crown(best.height))
         law = best.solution.law
         loads = load_range(_at_mean(crowned, along), along, model, within=share, law=law)

@@ -10,7 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, read_option, write
+from rollnip.cli.console import clear_failures, leave, named, read_option, write
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -213,7 +213,7 @@ def stress(
         else:
             write("\n".join(stress_lines(solution.patch.title, side, rows)) + "\n")
     if not solution.converged:
-        raise typer.Exit(1)
+        leave(f"{problem.source}: not converged: {solution.status}", 1)
 
 
 @patch.command("ends")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import cos
 from typing import Any
@@ -118,12 +120,15 @@ def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> Fa
         if getattr(face, name) is not None and nip.upper.shaft is None:
             raise InvalidInputError(f"`{name}` needs `upper.shaft`, which says where bearings are.")
     grid = FaceGrid.of(face.length, count)
-    upper, lower = (_flexibility(roller, face, grid) for roller in (nip.upper, nip.lower))
+    bends, crowns = [], []
+    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        with _of_shaft(side):
+            bends.append(_flexibility(roller, face, grid))
+            crowns.append(_crown(roller, grid))
+            _require_covered(roller, crowns[-1])
+    upper, lower = bends
     down = cos(face.nip_angle)
     weights = (_weight(nip.upper) * down, _weight(nip.lower) * down)
-    crowns = [_crown(roller, grid) for roller in (nip.upper, nip.lower)]
-    for roller, crown in zip((nip.upper, nip.lower), crowns, strict=True):
-        _require_covered(roller, crown)
     skew = (grid.y * face.skew) ** 2 / (2.0 * (nip.upper.radius + nip.lower.radius))
     ones = np.ones(grid.y.size)
     # Weight bends the upper roller towards the lower one, and the lower one away from it.
@@ -142,6 +147,15 @@ def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> Fa
     )
     _require_possible(problem)
     return problem
+
+
+@contextmanager
+def _of_shaft(side: str) -> Iterator[None]:
+    """Say which roller's shaft an input error raised inside the block is about."""
+    try:
+        yield
+    except InvalidInputError as error:
+        raise InvalidInputError(f"{str(error).rstrip('.')} (in `{side}.shaft`).") from None
 
 
 def _flexibility(roller: Roller, face: Face, grid: FaceGrid) -> Array:

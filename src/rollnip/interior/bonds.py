@@ -13,6 +13,8 @@ from rollnip.interior.finite import FiniteFields
 from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
+_BESIDE = 100  # places on each side: 0.02 depths apart or less, an error of a maximum of some 1e-4
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class InterfaceStress(Sealed):
@@ -72,7 +74,8 @@ def interface_stresses(
     ----------
     name : of the roller.
     roller, tractions, beyond : as in ``interior_field``.
-    x : (n,) increasing places [mm].
+    x : (n,) increasing places [mm]; more are added beside them where the interfaces lie deeper than
+        the places reach, because shear is largest some half of the depth away from a narrow nip.
     medium : geometry and speed, as in ``interior_field``.
 
     Returns
@@ -87,6 +90,7 @@ def interface_stresses(
     if not roller.layers:
         return ()
     depths = np.array(roller.interfaces)
+    x = _as_wide_as_deep(x, float(depths[-1]))
     geometry, speed = medium
     above = interior_field(
         roller, tractions, depths, x, geometry=geometry, speed=speed, beyond=beyond
@@ -107,6 +111,16 @@ def interface_stresses(
         beneath = below.von_mises.max(axis=1)
         von_mises[: shared.size] = np.maximum(von_mises[: shared.size], beneath)
     return tuple(_figures(name, above, i, float(von_mises[i])) for i in range(depths.size))
+
+
+def _as_wide_as_deep(x: Array, depth: float) -> Array:
+    """Return the places, and more beside them up to two depths from their middle."""
+    middle, reach = 0.5 * (x[0] + x[-1]), 2.0 * depth
+    if x[-1] - middle >= reach:
+        return x
+    left = np.linspace(middle - reach, x[0], _BESIDE + 1)
+    right = np.linspace(x[-1], middle + reach, _BESIDE + 1)
+    return np.concatenate([left[:-1], x, right[1:]])
 
 
 def _figures(name: str, field: InteriorField, row: int, von_mises: float) -> InterfaceStress:

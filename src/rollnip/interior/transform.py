@@ -110,6 +110,8 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     sources, targets = Phases(tractions.places), Phases(places)
     for block in waves.blocks(float(rows.last.max())):
         active = np.flatnonzero(rows.last > block.start)
+        if not active.size:  # all rows lie so deep that the first block holds all they feel
+            break
         transforms = tractions.transform(block.k, sources.sums(block, tractions.kinks))
         spectrum = _spectrum(medium, rows, active, block.k, transforms)
         if medium.is_viscoelastic:

@@ -15,6 +15,7 @@ from rollnip._errors import (
     require_positive,
 )
 from rollnip.nip import Approach
+from rollnip.no_nip import MOST_PRESSED_IN
 from rollnip.patch.coefficients import Grid
 from rollnip.patch.level import Level, solve_level
 from rollnip.patch.measures import FIGURES, figures_of
@@ -103,10 +104,12 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
     assert level is not None
     name, worst = _worst(patch, level, errors)
     is_cut = _is_cut(patch, level)
-    converged = bool(level.settled and worst <= tolerance and not is_cut)
     status = _status(level, name, worst, tolerance)
     if is_cut:
         status = "The contact reaches the rim of the grid; the figures are those of a part of it."
+    too_deep = _too_deep(patch, level)
+    status = too_deep or status
+    converged = bool(level.settled and worst <= tolerance and not is_cut and not too_deep)
     return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes), wanted)
 
 
@@ -130,6 +133,21 @@ def _is_cut(patch: Patch, level: Level) -> bool:
         ends
         or (contact[0].any() and low > -patch.half_face + rim)
         or (contact[-1].any() and high < patch.half_face - rim)
+    )
+
+
+def _too_deep(patch: Patch, level: Level) -> str:
+    """Return the sentence on coverings that are pressed in too far; "" where they are not."""
+    if patch.upper.core is not None or patch.lower.core is not None:
+        return ""
+    thickness = patch.upper.coating_thickness + patch.lower.coating_thickness
+    share = figures_of(level)["approach"] / thickness
+    if share < MOST_PRESSED_IN:
+        return ""
+    return (
+        f"The coverings, {thickness:g} mm thick, are pressed in by {100.0 * share:.0f} % of that; "
+        f"beyond {100.0 * MOST_PRESSED_IN:.0f} % small strain does not hold. Lower the load or the "
+        "approach, or take a thicker or harder covering."
     )
 
 
@@ -248,11 +266,28 @@ def _found_box(patch: Patch, box: Box, tables: PairTables) -> tuple[Box, Level]:
     level = None
     for _ in range(_SEARCHES):
         level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), _ROUGH, level, tables)
+        _require_short(patch, level)
         box, fits = _fitted(patch, level, box)
         if fits:
             return box, level
     raise InvalidInputError(
         "`patch` must touch over a bounded area, and none was found; check radii, layers and load."
+    )
+
+
+def _require_short(patch: Patch, level: Level) -> None:
+    """Raise InvalidInputError where a patch is as long as the smaller roller."""
+    diameter = 2.0 * min(patch.upper.radius, patch.lower.radius)
+    touched = np.any(level.normal.pressure > 0.0, axis=0)
+    if np.count_nonzero(touched) * level.grid.hx < diameter:
+        return
+    if isinstance(patch.normal, Force):
+        name, got = "load", f"{patch.normal.force:g} N"
+    else:
+        name, got = "approach", f"{patch.normal.approach:g} mm"
+    raise InvalidInputError(
+        f"`{name}` must be small enough for a patch shorter than the smaller roller, {diameter:g} "
+        f"mm in diameter, got {got}."
     )
 
 
@@ -266,6 +301,7 @@ def _first_box(patch: Patch) -> Box:
         across = sqrt(2.0 * patch.normal.approach / max(patch.curvature_across, 1e-9))
     else:
         half = float(np.cbrt(patch.normal.force * radius / young))
+        half = min(half, patch.upper.radius, patch.lower.radius)
         across = half * (max(patch.curvature, 1e-9) / max(patch.curvature_across, 1e-9)) ** 0.6
     return (-half, half), _held(patch, (-across, across))
 

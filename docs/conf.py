@@ -76,6 +76,11 @@ myst_substitutions = {
         f"share_{name}": f"{100 * MODEL_SHARES['finite'][name]:g} %"
         for name in ("load", "creepage", "nip_width", "peak_pressure")
     },
+    **{
+        f"share_second_{name}": f"{100 * MODEL_SHARES['second'][name]:g} %"
+        for name in ("load", "creepage", "nip_width", "peak_pressure")
+    },
+    "share_second_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK['second']:g} %",
     "share_gripped_peak": f"{100 * SHARE_OF_EDGE_PEAK['gripped']:g} %",
     "share_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK['finite']:g} %",
     **timings.substitutions(),

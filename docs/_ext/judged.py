@@ -98,16 +98,9 @@ def cases() -> tuple[dict[str, Any], ...]:
 
 
 @cache
-def judged(number: int, geometry: str) -> Judged | None:
-    """Return one geometry beside a finite-element result; None for stiff skins in `finite`.
-
-    These take seconds each: the slow tests hold them.
-    """
+def judged(number: int, geometry: str) -> Judged:
+    """Return one geometry beside a finite-element result."""
     case = cases()[number]
-    return None if geometry == "finite" and is_skinned(case) else _judge(case, geometry)
-
-
-def _judge(case: dict[str, Any], geometry: str) -> Judged:
     nip = rn.Nip(
         upper=coated(case["upper"]),
         lower=coated(case["lower"]),
@@ -156,7 +149,7 @@ GROUPS = {
 def in_group(group: str, geometry: str) -> list[Judged]:
     """Return the results of a group in one geometry."""
     numbers = [number for number, case in enumerate(cases()) if GROUPS[group](case)]
-    return [one for number in numbers if (one := judged(number, geometry)) is not None]
+    return [judged(number, geometry) for number in numbers]
 
 
 def largest(group: str, geometry: str, figure: str) -> float:
@@ -198,8 +191,6 @@ def summary_table() -> str:
     for group in GROUPS:
         for geometry in GEOMETRIES:
             rows = in_group(group, geometry)
-            if not rows:
-                continue
             # A bar in the name of a group would part the cell.
             name = f"{group}: {len(rows)}" if geometry == GEOMETRIES[0] else ""
             name = name.replace("|", r"\|")
@@ -220,7 +211,7 @@ def case_table() -> str:
         share = "none" if case["friction"] == 0.0 else f"{drive(case) + 0.0:+.2g}"
         cells = [case["case"], share]
         for one in rows:
-            cells += _row(one) if one else [""] * 4
+            cells += _row(one)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
@@ -308,7 +299,7 @@ def skins() -> tuple[int, list[float], float]:
         if len(layers) < 2 or layers[0]["modulus"] <= layers[1]["modulus"]:
             continue
         one = judged(number, "second")
-        if one is None or one.creepage is None:
+        if one.creepage is None:
             continue
         if one.skin is None:
             unwarned.append(abs(one.creepage))

@@ -26,8 +26,8 @@ PATCH_TOLERANCE = 5e-3
 """Relative accuracy where none is wanted."""
 
 _FREE = Creepage(0.0)
-_LARGEST_SLOPE = 0.999
 _LARGEST_LOAD = 1e12  # N; beyond it a unit was mistaken
+_LARGEST_SLOPE = 0.999
 """An end radius is followed to where it is this steep, short of upright."""
 
 

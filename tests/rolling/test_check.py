@@ -46,6 +46,15 @@ def test_what_is_no_number_is_no_small_residual(solved, attribute):
     assert np.isnan(residual(solution.nip, changed, final, shortest(solution)))
 
 
+def test_a_contact_without_load_carries_no_traction(solved):
+    """Iterations that diverge may end with one: it ended in a division by zero."""
+    solution = solved("II driven, curved")
+    final = solution.final
+    fields = fields_at(fine_points(final), solution.nip, "curved", solution.kernels, final)
+    empty = replace(final, figures=replace(final.figures, load=0.0))
+    assert residual(solution.nip, fields, empty, shortest(solution)) == np.inf
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("factor", [0.99, 1.01])
 def test_pressure_wrong_by_a_hundredth(solved, name, factor):

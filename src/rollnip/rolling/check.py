@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -177,8 +178,8 @@ def _friction_errors(
             errors.append(float(np.maximum(-sign * creep, 0.0).sum()) / allowed)
     wanted = final.problem.control.traction
     if wanted is not None:
-        reached = float(final.weights @ final.shear)
-        errors.append(abs(reached - wanted) / (nip.friction * figures.load))
+        off, limit = abs(float(final.weights @ final.shear) - wanted), nip.friction * figures.load
+        errors.append(off / limit if limit > 0.0 else inf)
     return errors
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import State, States
+from rollnip.contact import ContactState, State, States
 
 Array = NDArray[np.float64]
 
@@ -34,3 +34,29 @@ def with_stick_between_slips(states: States, shear: Array) -> States:
         if states[i] != states[i + 1] and states[i] > State.STICK:
             states[i + int(size[i + 1] < size[i])] = State.STICK
     return states
+
+
+def next_slip(
+    state: ContactState, creep: Array, own: Array, friction: float, little: float
+) -> States:
+    """Return the states of one interface that follow from creep and shear, (n,).
+
+    Free nodes and nodes under tension keep their states. A node also keeps its state while its
+    shear is within the bound under ``little`` pressure.
+
+    Parameters
+    ----------
+    state, creep, friction : of the interface; creep of its intervals, (n,) [mm].
+    own : creep of each node by its own shear, (n,) [mm/MPa].
+    little : pressure that counts as rounding [MPa].
+    """
+    kept = (state.states != State.FREE) & (state.pressure >= -little)
+    sought = state.shear - creep / own
+    bound, room = friction * np.maximum(state.pressure, 0.0), friction * little
+    plus = sought > bound + np.where(state.states == State.SLIP_PLUS, -room, room)
+    minus = sought < -bound - np.where(state.states == State.SLIP_MINUS, -room, room)
+    out = state.states.copy()
+    out[kept] = State.STICK
+    out[kept & plus] = State.SLIP_PLUS
+    out[kept & minus] = State.SLIP_MINUS
+    return out

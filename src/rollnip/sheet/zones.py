@@ -56,6 +56,16 @@ class SideZones:
         upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
         return type(self)(upper, lower)
 
+    @property
+    def key(self) -> bytes:
+        """Key that zones share if they have the same states in the same order."""
+        return b"|".join(side.key for side in self.sides)
+
+    @property
+    def count(self) -> int:
+        """Number of zones on both interfaces."""
+        return sum(side.states.size for side in self.sides)
+
     def is_like(self, other: Self) -> bool:
         """Return whether the other zones have the same states in the same order."""
         pairs = zip(self.sides, other.sides, strict=True)

@@ -160,7 +160,7 @@ class MembraneSearch:
                 zones = (
                     proposed
                     if misplacement > _NEARLY_PLACED
-                    else self.secants.next(zones, proposed)
+                    else self.secants.next(self.secants.learn(zones, proposed))
                 )
                 continue
             changes += 1

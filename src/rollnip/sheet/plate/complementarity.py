@@ -7,20 +7,27 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Inequalities, State, interior_point
+from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import LineLoad
 from rollnip.sheet.complementarity import (
     LEAST_PRESSURE,
     indentation,
+    next_slip,
     with_stick_between_slips,
 )
-from rollnip.sheet.plate.linear_system import EXTRA_UNKNOWNS, constant_terms, equations
+from rollnip.sheet.plate.linear_system import (
+    EXTRA_UNKNOWNS,
+    FactorisedPlate,
+    constant_terms,
+    equations,
+)
 from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 
 Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]
 
+_MOST_STEPS = 20
 _ENOUGH = 1e-4  # residual at which the states are accepted although it shrinks no further
 
 
@@ -69,6 +76,47 @@ def solve_complementarity(
         rotation=rotation,
     )
     return state, found.steps
+
+
+def settled_slip(
+    problem: PlateProblem, state: PlateState, lagged: PlateTerms, slack: float
+) -> PlateState | None:
+    """Return the solution for fixed contacts with consistent stick and slip; None if not found.
+
+    In each step all nodes take the states that creep and shear call for.
+
+    Parameters
+    ----------
+    problem, lagged : as above.
+    state : a solution close to it.
+    slack : pressure that counts as rounding, over the highest one.
+    """
+    tried: set[bytes] = set()
+    for _ in range(_MOST_STEPS):
+        wanted = wanted_slip(problem, state, lagged, slack)
+        if all(map(np.array_equal, wanted, state.states)):
+            return state
+        key = b"|".join(one.tobytes() for one in wanted)
+        if key in tried or not any(np.any(one == State.STICK) for one in wanted):
+            return None
+        tried.add(key)
+        state = FactorisedPlate.of(problem, wanted).solved(lagged)
+    return None
+
+
+def wanted_slip(
+    problem: PlateProblem, state: PlateState, lagged: PlateTerms, slack: float
+) -> tuple[States, States]:
+    """Return the states of both interfaces that follow from creep and shear; see `settled_slip`."""
+    _, b, c, d, end = problem.starts
+    out = []
+    for side, (creep, at) in enumerate(
+        zip(problem.creeps(state, lagged), (slice(b, c), slice(d, end)), strict=True)
+    ):
+        one, own = state.side(side), np.diag(problem.matrix[at, at])
+        little = slack * float(one.pressure.max())
+        out.append(next_slip(one, creep, own, problem.frictions[side], little))
+    return out[0], out[1]
 
 
 def _inequalities(

@@ -71,7 +71,7 @@ class InitialZones:
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
-        has_peaks = self.nip.upper.is_rigid or self.nip.lower.is_rigid
+        has_peaks = not (self.nip.upper.layers and self.nip.lower.layers)
         for _ in range(_MOST_REACHES):
             try:
                 found = self._beyond(zones, lagged, elements, margin)

@@ -26,7 +26,7 @@ from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shorte
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import END_TOLERANCE
 from rollnip.sheet.lagged_terms import has_no_terms
-from rollnip.sheet.plate.complementarity import solve_complementarity
+from rollnip.sheet.plate.complementarity import settled_slip, solve_complementarity
 from rollnip.sheet.plate.initial_zones import InitialZones
 from rollnip.sheet.plate.interface import interface_mesh, path_ratio
 from rollnip.sheet.plate.iterate import (
@@ -49,16 +49,15 @@ from rollnip.sheet.secant import SecantSteps
 Array = NDArray[np.float64]
 
 _SLACK = 0.1  # over the tolerance: relative excess of the shear that counts as rounding
-_FAIRLY_PLACED = 2e-3  # end error over the width, small enough to judge the states
-_NEARLY_PLACED = 0.01  # end error over the width, small enough for secant steps
+_FAIRLY_PLACED = 2e-3  # end error over the width, small enough for lagged terms to settle
+_NEARLY_PLACED = 0.01  # end error over the width, small enough to judge the states
 _OF_THICKNESS = 0.25  # boundary layer of the pressure on a rigid roller, over the sheet's thickness
 # Least share of all elements in each zone. The strip between the edges of both contacts matters as
 # much as long zones: with six elements in it on all mesh sizes, these agreed on wrong figures.
 _LEAST_SHARE = 0.2
 _MOST_MESHES = 18
-_MOST_ROUGH = 6  # meshes in a row on which ends only move and states are not checked
-_MOST_NODES = 320  # of a mesh whose states are determined all at once
 _MOST_CHANGES = 3  # of the zones' states, before the search starts again
+_MOST_NODES = 320  # of a mesh whose states are determined all at once
 _MOST_ITERATIONS = 25
 # Last change of the lagged terms, over the tolerance and at most. In the coarse contacts of
 # "finite", whose tolerance is large, more than that moves the edges beside stiff peaks to and fro.
@@ -123,17 +122,16 @@ class PlateSearch:
     ) -> PlateIterate:
         """Move the zone ends until they converge, and change zones with wrong states.
 
-        Slip that a single node calls for is tried; if it does not converge, the solution without it
-        is returned. ``allowed``: allowed error of a zone end, over the width.
+        Each sequence of zones is changed to once. Where none is left to try, the solution with
+        placed ends that violates its conditions least is returned. ``allowed``: allowed error of a
+        zone end, over the width.
         """
         self.secants.begin_size()
         # With a finer tolerance, stick that has closed would open by less than shows where it ends.
         reopening = max(self.model.tolerance, Model().tolerance)
-        shapes = _Shapes()
-        changes = rough_ones = 0
-        known = min(before.misplacement, 1.0)
-        iterate, misplacement = before, inf
-        fair: PlateIterate | None = None
+        shapes, tried = _Shapes(), set[bytes]()
+        known, misplacement = min(before.misplacement, 1.0), inf
+        iterate, fair, least = before, None, self.model.tolerance
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().reopened(END_TOLERANCE * reopening)
             if not zones.is_proper:
@@ -141,40 +139,66 @@ class PlateSearch:
             iterate, is_fine = self._solve_with_zones(
                 zones, (count, shapes), (known, misplacement), iterate
             )
-            problem = iterate.problem
-            proposed = zones.moved(problem, iterate.state)
-            misplacement = proposed.distance(zones)
+            latest = self._judged(zones, iterate, allowed, is_fine=is_fine)
+            proposed, misplacement = latest.proposed, latest.misplacement
             known = min(known, misplacement)
-            violated = violation(iterate)
-            is_fair = violated <= self.model.tolerance
-            is_met = max(violated, shear_over(iterate)) <= self._slack
-            is_placed = misplacement <= allowed and iterate.settled and is_fine
-            is_placed = is_placed and not pulls_at_edges(iterate)
-            is_placed = is_placed and added_to_peaks(iterate, proposed) <= self.model.tolerance
-            if is_met and is_placed:
-                return replace(iterate, zones=proposed, misplacement=misplacement)
-            if is_fair and is_placed and fair is None:
-                fair = replace(iterate, zones=proposed, misplacement=misplacement)
-            rough = misplacement > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
-            rough_ones = rough_ones + 1 if rough else 0
-            if not (rough or is_met or (is_fair and not is_placed)):
-                found = self._consistent_zones(iterate, proposed)
-                if found is None:
+            if latest.is_placed and (latest.is_met or latest.violated <= least):
+                fair, least = latest.placed, latest.violated
+                if latest.is_met:
                     break
-                if not found.is_like(zones):
-                    changes += 1
-                    if changes > _MOST_CHANGES:
-                        break
-                    zones = found
-                    shapes.clear()
-                    continue
-                proposed = zones.moved(problem, iterate.state, found)
-                if is_placed and proposed.distance(zones) <= allowed:
+            found = self._consistent_zones(latest) if self._is_in_doubt(latest) else None
+            if found is not None and _is_other(found, latest, tried):
+                if len(tried) == _MOST_CHANGES:
                     break
-            zones = (
-                proposed if misplacement > _NEARLY_PLACED else self.secants.next(zones, proposed)
-            )
+                tried.add(found.key)
+                zones = found
+                shapes.clear()
+                continue
+            if found is not None and found.is_like(zones):
+                proposed = self._proposed(zones, iterate, found)
+            if latest.is_placed and proposed.distance(zones) <= allowed:
+                break
+            zones = self.secants.next(proposed)
         return _unsettled(zones, iterate, misplacement) if fair is None else fair
+
+    def _judged(
+        self, zones: PlateZones, iterate: PlateIterate, allowed: float, *, is_fine: bool
+    ) -> _Judged:
+        """Return what a solution says about its zones.
+
+        ``is_fine``: whether nodes crowd at their ends as much as required.
+        """
+        proposed = self._proposed(zones, iterate)
+        misplacement, violated = proposed.distance(zones), violation(iterate)
+        is_at_rest = misplacement <= allowed and iterate.settled and is_fine
+        is_placed = (
+            is_at_rest
+            and not pulls_at_edges(iterate)
+            and added_to_peaks(iterate, proposed) <= self.model.tolerance
+            and zones.shows_roots(iterate.problem, iterate.state)
+        )
+        return _Judged(
+            iterate=iterate,
+            proposed=proposed,
+            misplacement=misplacement,
+            violated=violated,
+            is_met=max(violated, shear_over(iterate)) <= self._slack,
+            is_at_rest=is_at_rest,
+            is_placed=is_placed,
+        )
+
+    def _proposed(
+        self, zones: PlateZones, iterate: PlateIterate, requested: PlateZones | None = None
+    ) -> PlateZones:
+        """Return the zones with their ends where a solution puts them; see `PlateZones.moved`."""
+        problem, state = iterate.problem, iterate.state
+        moved = zones.moved(problem, state, requested)
+        return self.secants.learn(zones, moved, zones.singular(problem, state))
+
+    def _is_in_doubt(self, latest: _Judged) -> bool:
+        """Return whether a solution violates its conditions by more than ends that still move."""
+        is_near = latest.misplacement <= _NEARLY_PLACED and latest.violated > self.model.tolerance
+        return not latest.is_met and (latest.is_at_rest or is_near)
 
     def _solve_with_zones(
         self,
@@ -202,7 +226,7 @@ class PlateSearch:
 
         On a rigid roller the pressure ends in a peak about as long as the sheet is thick.
         """
-        rigid = (self.nip.upper, self.nip.lower)[side].is_rigid
+        rigid = not (self.nip.upper, self.nip.lower)[side].layers
         return min(self.boundary, _OF_THICKNESS * self._thickness) if rigid else self.boundary
 
     @property
@@ -229,7 +253,7 @@ class PlateSearch:
             roller = (self.nip.upper, self.nip.lower)[number]
             unlike = mismatch_layer((roller,), self.model.tolerance) * side.width
             least = max(min(self._boundary_of(number), unlike), SHORTEST_LAYER * side.width)
-            breaks = zones.breaks_of_mesh(number, self._thickness, peaks=roller.is_rigid)
+            breaks = zones.breaks_of_mesh(number, self._thickness, peaks=not roller.layers)
             crowding = crowding_of(breaks, max(least, known * side.width))
             is_fine = is_fine and crowding == crowding_of(breaks, least)
             kept = shapes.get((number, crowding))
@@ -305,16 +329,64 @@ class PlateSearch:
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _consistent_zones(self, iterate: PlateIterate, edges: PlateZones) -> PlateZones | None:
-        """Return zones with consistent states between known edges; None where there are none."""
-        if max(mesh.inner.size for mesh in iterate.problem.meshes) > _MOST_NODES:
-            return None
+    def _consistent_zones(self, latest: _Judged) -> PlateZones | None:
+        """Return zones with consistent states between known edges; None where there are none.
+
+        Stick and slip are sought from those of the solution, with its contact. Where that does not
+        settle and the ends are at rest, contact, stick and slip are determined at all nodes.
+        """
+        iterate, edges = latest.iterate, latest.proposed
+        problem, lagged = iterate.problem, iterate.lagged
+        nodes = max(mesh.inner.size for mesh in problem.meshes)
         try:
-            state, _ = solve_complementarity(iterate.problem, iterate.lagged, iterate.zones.edges)
+            state = settled_slip(problem, iterate.state, lagged, self._slack)
+            if state is None and latest.is_at_rest and nodes <= _MOST_NODES:
+                state, _ = solve_complementarity(problem, lagged, iterate.zones.edges)
         except np.linalg.LinAlgError:
             return None
-        found = edges.found(iterate.problem, state)
+        found = None if state is None else edges.found(problem, state)
         return None if found is None else found.without_slivers()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Judged:
+    """What a solution says about its zones.
+
+    Attributes
+    ----------
+    iterate : the solution.
+    proposed : its zones with their ends where it puts them.
+    misplacement : distance of these from its zones, over the width.
+    violated : residual of its friction conditions.
+    is_met : whether these are met but for rounding.
+    is_at_rest : whether no end moves any more, and neither do lagged terms.
+    is_placed : whether, besides, nothing at the ends denies that they are in place.
+    """
+
+    iterate: PlateIterate
+    proposed: PlateZones
+    misplacement: float
+    violated: float
+    is_met: bool
+    is_at_rest: bool
+    is_placed: bool
+
+    @property
+    def placed(self) -> PlateIterate:
+        """The solution with its ends where it puts them."""
+        return replace(self.iterate, zones=self.proposed, misplacement=self.misplacement)
+
+
+def _is_other(found: PlateZones, latest: _Judged, tried: set[bytes]) -> bool:
+    """Return whether zones that a solution calls for are to be tried.
+
+    Fewer zones than it has may be tried again. Until they are at rest the ends of its own zones
+    move anyway; then they are tried like others.
+    """
+    zones = latest.iterate.zones
+    if found.is_like(zones) and not latest.is_at_rest:
+        return False
+    return found.count < zones.count or found.key not in tried
 
 
 def _unsettled(zones: PlateZones, iterate: PlateIterate, misplacement: float) -> PlateIterate:

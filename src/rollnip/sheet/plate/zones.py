@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,7 +99,8 @@ class PlateZones(SideZones):
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
         A transition moves at most half of the way to its neighbours, an edge at most a 25th of the
-        width. An end stays where nothing shows its place.
+        width, and outwards at most the length of the zone beside it. A transition stays where
+        nothing shows its place.
 
         Parameters
         ----------
@@ -113,21 +115,44 @@ class PlateZones(SideZones):
             if requested is not None:
                 proposed = np.where(np.isfinite(proposed), proposed, requested.sides[number].breaks)
             trailing, leading = side.edges
-            most = LONGEST_MOVE * side.width
+            most, lengths = LONGEST_MOVE * side.width, side.lengths
             first, last = float(proposed[0]), float(proposed[-1])
             # an edge beside which no pressure rises lies in tension: move it to where that ends
             pressed = x[state.pressure[number] > 0.0]
             if pressed.size:
-                first = first if np.isfinite(first) else float(pressed[0])
-                last = last if np.isfinite(last) else float(pressed[-1])
-            first = first if np.isfinite(first) else trailing
-            last = last if np.isfinite(last) else leading
+                first = float(pressed[0]) if first == inf else first
+                last = float(pressed[-1]) if last == -inf else last
+            outwards = np.minimum(most, lengths[[0, -1]])
             edges = (
-                float(np.clip(first, trailing - most, trailing + most)),
-                float(np.clip(last, leading - most, leading + most)),
+                float(np.clip(first, trailing - outwards[0], trailing + most)),
+                float(np.clip(last, leading - most, leading + outwards[1])),
             )
             sides.append(Layout(within_zone_middles(side.breaks, proposed, edges), side.states))
         return PlateZones(sides[0], sides[1])
+
+    def shows_roots(self, problem: PlateProblem, state: PlateState) -> bool:
+        """Return whether a solution shows where slip turns to stick, at each such transition.
+
+        There the shear leaves its bound as a square root.
+        """
+        for number, side in enumerate(self.sides):
+            x, friction = problem.meshes[number].inner, problem.frictions[number]
+            proposed = side.with_proposed_ends(x, state.side(number), friction).breaks
+            if not np.isfinite(proposed[1:-1][side.states[1:] == State.STICK]).all():
+                return False
+        return True
+
+    def singular(self, problem: PlateProblem, state: PlateState) -> Array:
+        """Return the inverse square roots in the pressures at all edges, NaN at transitions, (m,).
+
+        See `Layout.singular`.
+        """
+        parts = []
+        for number, side in enumerate(self.sides):
+            part = np.full(side.breaks.size, np.nan)
+            part[[0, -1]] = side.singular(problem.meshes[number].inner, state.side(number))
+            parts.append(part)
+        return np.concatenate(parts)
 
     def without_slivers(self) -> PlateZones:
         """Return the zones without those too short to matter."""

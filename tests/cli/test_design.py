@@ -276,7 +276,10 @@ def test_pareto_refuses(tmp_path):
     assert 'line 4: "peak_pressure" must be a number, got "high"' in refused(
         *one, "--maximise", "nip_width"
     )
-    assert "there is no such file" in refused("pareto", str(tmp_path / "n.csv"), *one[2:], *one[2:])
+    both = (*one[2:], "--maximise", "nip_width")
+    assert "there is no such file" in refused("pareto", str(tmp_path / "n.csv"), *both)
+    twice = refused(*one, "--maximise", "peak_pressure")
+    assert "must name each column once, got peak_pressure twice" in twice
 
 
 @pytest.mark.parametrize("command", ["optimise", "tolerance"])

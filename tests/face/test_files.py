@@ -12,6 +12,7 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 import rollnip as rn
+import rollnip.face
 from rollnip._results.case import case_tree
 from rollnip.cli.app import app
 from rollnip.cli.face import _per_cent
@@ -275,6 +276,18 @@ def test_face_crown(smooth):
     assert tree["loads"]["within"] == 0.1
     assert 0.4 < tree["height"] < 0.55
     assert tree["loads"]["low"] < 6.0 < tree["loads"]["high"]
+
+
+def test_a_crown_that_is_not_verified_says_so(smooth, monkeypatch):
+    def unverified(*given, **named):
+        best = even_crown(*given, **named)
+        return replace(best, solution=replace(best.solution, converged=False, status="Not so."))
+
+    even_crown = rollnip.face.even_crown
+    monkeypatch.setattr(rollnip.face, "even_crown", unverified)
+    result = run("face", "crown", smooth)
+    assert result.exit_code == 1
+    assert result.stderr.endswith("not converged: Not so.\n")
 
 
 @pytest.mark.parametrize(

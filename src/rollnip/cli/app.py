@@ -179,12 +179,13 @@ def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
 
 
 def _say_what_takes_long(problem: Case, model: Model) -> None:
-    """Write a line to the standard error where finite elements will take ten seconds or more."""
+    """Write a line to the standard error where finite elements may take a minute or more."""
     most = max(len(one.layers) for one in (problem.nip.upper, problem.nip.lower))
     if model.geometry == "finite" and most >= _MANY_LAYERS:
         sys.stderr.write(
-            f'rollnip: {most} layers take long in geometry "finite": 100 some ten seconds, 300 '
-            "several minutes. With --geometry curved they take less than a second.\n"
+            f'rollnip: {most} layers take long in geometry "finite": 100 up to fifteen seconds, '
+            "viscoelastic ones a minute, 300 several times as long. With --geometry curved they "
+            "take a second.\n"
         )
 
 

@@ -240,6 +240,11 @@ def pareto(
                 f"`--minimise` and `--maximise` must name {'two' if plot else 'two or more'} "
                 f"columns in all, got {len(names)}."
             )
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise InvalidInputError(
+                f"`--minimise` and `--maximise` must name each column once, got {twice} twice."
+            )
         if out is not None:
             check_target(out, (".csv",))
         if plot is not None:

@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, named_by
+from rollnip.cli.console import clear_failures, leave, named, named_by
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -111,6 +111,8 @@ def crown(
         wall = plain_wall(nip, along, model, within=share, roller=name, law=law)
         _draw(best.solution, plot)
         _print(_crown_dict(best, loads, wall) if json else _crown_text(best, loads, wall))
+        if not best.solution.converged:
+            leave(f"{case}: not converged: {best.solution.status}", 1)
 
 
 @face.command()

@@ -183,7 +183,7 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
     cuts = [one.refined.cut_losses[0] / one.traction for _, one in solved]
     # Without them the power would be off by more than is allowed above: at some loads only where a
     # stiff sheet keeps half of the stretch away.
-    assert max(cuts) > 1e-3 if bending else min(cuts) > 2e-3
+    assert (max if bending else min)(cuts) > 1e-3
 
 
 @pytest.mark.slow

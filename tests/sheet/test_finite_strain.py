@@ -169,11 +169,12 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
     solved = [_driven_hard(load, (share,), monkeypatch, bending=bending) for load in loads]
     solved = [(nip, one) for nip, one in solved if one.model.geometry == "finite"]
     assert solved
+    allowed = 5e-4 if bending else 1e-3  # a stiff sheet keeps half of the stretch away
     for nip, solution in solved:
         found = solution.sheet
         passed = nip.speed * solution.traction
         heat = found.friction_upper + found.friction_lower
-        assert solution.power_in == pytest.approx(heat + found.power, abs=1e-3 * passed)
+        assert solution.power_in == pytest.approx(heat + found.power, abs=allowed * passed)
         torques, claims = ("torque_upper", "torque_lower"), solution.error
         for side, name in enumerate(torques):
             radius = (nip.upper, nip.lower)[side].radius
@@ -181,9 +182,8 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
             # the elements over the depth are few for such stretches: they leave 1 %, and say so
             assert off < 1.1 * claims[name], name
     cuts = [one.refined.cut_losses[0] / one.traction for _, one in solved]
-    # Without them the power would be off by more than is allowed above: at some loads only where a
-    # stiff sheet keeps half of the stretch away.
-    assert (max if bending else min)(cuts) > 1e-3
+    # Without them the power would be off by more than is allowed above.
+    assert min(cuts) > allowed
 
 
 @pytest.mark.slow

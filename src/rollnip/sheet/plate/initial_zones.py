@@ -1,7 +1,7 @@
 """Initial zones of a plate: contact, stick and slip at all nodes, on meshes around the contacts.
 
 The first mesh extends far beyond the contacts. A second one ends closer to the edges that it found,
-and its nodes crowd there. Beside a rigid roller more of them follow, the last of which ends about
+and its nodes crowd there. Beside a bare roller more of them follow, the last of which ends about
 one sheet thickness away, because there the pressure ends in a peak as short as that: an edge whose
 error exceeds the length of the peak would move the wrong way in the search that follows.
 """
@@ -64,7 +64,7 @@ class InitialZones:
 
         Each mesh ends closer to the edges that the previous one found; where edges moved to the end
         of a mesh, the next one keeps the same margin. One mesh that contains the edges is enough
-        where no roller is rigid. Where a mesh has no solution, the last zones are returned.
+        where no roller is bare. Where a mesh has no solution, the last zones are returned.
 
         ``lagged``: terms of a solution with approximately these zones, of which the traction, the
         shear-borne load and the known tension are used.

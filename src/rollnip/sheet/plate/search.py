@@ -51,7 +51,8 @@ Array = NDArray[np.float64]
 _SLACK = 0.1  # over the tolerance: relative excess of the shear that counts as rounding
 _FAIRLY_PLACED = 2e-3  # end error over the width, small enough for lagged terms to settle
 _NEARLY_PLACED = 0.01  # end error over the width, small enough to judge the states
-_OF_THICKNESS = 0.25  # boundary layer of the pressure on a rigid roller, over the sheet's thickness
+# Boundary layer of the pressure on a bare roller, and opposite one, over the sheet's thickness.
+_OF_THICKNESS, _OPPOSITE = 0.25, 0.45
 # Least share of all elements in each zone. The strip between the edges of both contacts matters as
 # much as long zones: with six elements in it on all mesh sizes, these agreed on wrong figures.
 _LEAST_SHARE = 0.2
@@ -224,10 +225,14 @@ class PlateSearch:
     def _boundary_of(self, side: int) -> float:
         """Return the length of the shortest boundary layer on one interface [mm].
 
-        On a rigid roller the pressure ends in a peak about as long as the sheet is thick.
+        On a bare roller the pressure ends in a peak about as long as the sheet is thick. Through
+        the sheet the other interface feels it.
         """
-        rigid = not (self.nip.upper, self.nip.lower)[side].layers
-        return min(self.boundary, _OF_THICKNESS * self._thickness) if rigid else self.boundary
+        both, shortest = (self.nip.upper, self.nip.lower), self.boundary
+        for roller, share in ((both[side], _OF_THICKNESS), (both[1 - side], _OPPOSITE)):
+            if not roller.layers:
+                shortest = min(shortest, share * self._thickness)
+        return shortest
 
     @property
     def _thickness(self) -> float:

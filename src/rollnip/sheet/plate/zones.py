@@ -52,7 +52,7 @@ class PlateZones(SideZones):
         ----------
         number : of the interface.
         thickness : of the sheet [mm].
-        peaks : whether the pressure ends in such peaks, as on a rigid roller.
+        peaks : whether the pressure ends in such peaks, as on a bare roller.
         """
         own, opposite = self.sides[number], self.sides[1 - number]
         first, last = own.edges

@@ -38,7 +38,7 @@ def test_the_limits_of_the_page_are_those_of_the_server():
         "layers of a roller": limits.layers,
         "terms of a Prony series": limits.terms,
         "values of a sweep": limits.values,
-        "sweeps and inverse solves at once": limits.long_waiting,
+        "sweeps and inverse solves under way or waiting": limits.long_waiting,
         "time of one solve": f"{limits.solve_seconds:g} s",
         "time of a sweep or an inverse solve": f"{limits.long_seconds:g} s",
         "time for the head of a request to arrive": f"{limits.head_seconds:g} s",

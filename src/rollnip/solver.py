@@ -50,6 +50,10 @@ _CLEARLY = 1.5
 # Thickness of a covering over half the nip width, below which rubber gives way by its change of
 # volume, too, and takes fewer elements with it.
 _THIN = 0.025
+_LONG_COLUMNS = (
+    "The columns of finite elements are too long for so thin a covering: take `geometry = "
+    '"curved"`, which needs none.'
+)
 _DIVERGED = 0.1  # last relative change of second-order terms from which they count as diverged
 # The advice that `rollnip.volume` gives, too.
 _VOLUME = (
@@ -355,10 +359,7 @@ def _too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
     """
     half, out = 0.5 * final.figures.nip_width, ""
     if model.geometry == "finite" and long_columns(nip, final) > model.tolerance:
-        out = (
-            " The columns of finite elements are too long for so thin a covering: take `geometry = "
-            '"curved"`, which needs none.'
-        )
+        out = f" {_LONG_COLUMNS}"
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
             continue

@@ -74,7 +74,7 @@ export const SOLVER_DE = {
   "solver.volume": "Ein so dünner Gummi gibt auch durch seine Volumenänderung nach: Geben Sie seine Querdehnzahl an, 0,5 - E/(6 K), mit einem Kompressionsmodul K von etwa 2000 MPa.",
   "solver.slippery": "So wenig Reibung ändert Annäherung, Spaltbreite und Druck kaum: Nehmen Sie Reibung 0, dann gibt es keinen Schlupf.",
   "solver.too-thin": "Der Bezug der {side} Walze ist {times}-mal dünner als die halbe Spaltbreite.",
-  "solver.long-columns": `Die Spalten finiter Elemente sind zu lang für einen so dünnen Bezug: Nehmen Sie \`geometry = "curved"\`, das keine braucht.`,
+  "solver.long-columns": "Die Spalten finiter Elemente sind zu lang für einen so dünnen Bezug: Nehmen Sie `geometry = \"curved\"`, das keine braucht.",
   "solver.no-better": "Der geschätzte Fehler ({figure}) ist {error} %, mehr als die Toleranz {tolerance}: Kein Netz macht {what} genauer. Verlangen Sie eine Toleranz von {finest} oder mehr, oder das Modell „Gekrümmte Schichten“ oder „Lineare Theorie“.",
   "solver.backwards": "Der Schlupf kommt als {creepage} heraus: Unter -2 und über 2 liefe eine Walze rückwärts. Die Dehnungen sind für diesen Spalt viel zu groß; verringern Sie Umfangskraft oder Last.",
   "solver.too-deep": "{what} der {side} Walze ist bei {thickness} mm Dicke um {pressed} % eingedrückt; über {limit} % gilt keines der Modelle hier. Verringern Sie Last oder Annäherung, oder nehmen Sie einen dickeren oder härteren Bezug.",

@@ -74,7 +74,7 @@ export const SOLVER_EN = {
   "solver.volume": "So thin a rubber yields by its change of volume, too: give its Poisson ratio, 0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa.",
   "solver.slippery": "So little friction hardly changes approach, nip width and pressure: take `friction = 0`, which has no creepage.",
   "solver.too-thin": "The covering of the {side} roller is {times} times thinner than half the nip width.",
-  "solver.long-columns": `The columns of finite elements are too long for so thin a covering: take \`geometry = "curved"\`, which needs none.`,
+  "solver.long-columns": "The columns of finite elements are too long for so thin a covering: take `geometry = \"curved\"`, which needs none.",
   "solver.no-better": `The estimated error of the {figure} is {error} %, more than the tolerance {tolerance}: no mesh makes {what} better. Ask for a tolerance of {finest} or more, or for geometry "curved" or "linear".`,
   "solver.backwards": "The creepage comes out as {creepage}: beyond -2 and 2 one roller would rotate backwards. Strains are far too large for this nip; lower the traction or the load.",
   "solver.too-deep": "{what} of the {side} roller, {thickness} mm thick, is pressed in by {pressed} % of its thickness; beyond {limit} % none of the models here holds. Lower the load or the approach, or take a thicker or harder covering.",

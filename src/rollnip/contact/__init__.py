@@ -1,7 +1,7 @@
 """The discrete contact problem: which nodes touch, stick or slip, and where the zones end."""
 
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
-from rollnip.contact.coupled import CoupledActiveSet, next_states
+from rollnip.contact.coupled import CoupledActiveSet, next_states, stick_and_slip
 from rollnip.contact.edge_exponents import left_out_of_creep, left_out_of_tractions
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
 from rollnip.contact.free_ends import NEAR_ENOUGH, Layout
@@ -64,6 +64,7 @@ __all__ = [
     "next_states",
     "slip_by_turning",
     "slipping_at_edges",
+    "stick_and_slip",
     "subdivided",
     "uncrowded",
 ]

@@ -192,15 +192,28 @@ def next_states(
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
     sought = solution.shear - drift / own
     bound = problem.friction * np.maximum(pressure, 0.0)
-    # Hysteresis: within rounding of the bound a node keeps its state.
-    slack = problem.friction * little
-    out = np.full(states.size, STICK, dtype=np.int8)
-    out[sought > bound + np.where(states == SLIP_PLUS, -slack, slack)] = SLIP_PLUS
-    out[sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)] = SLIP_MINUS
+    out = stick_and_slip(states, sought, bound, problem.friction * little)
     out = np.where(kept, out, others).astype(np.int8)
     (new,) = (kept & ~in_contact).nonzero()
     if new.size:
         out[new] = _nearest_states(states, in_contact, new)
+    return out
+
+
+def stick_and_slip(states: States, sought: Array, bound: Array, slack: float) -> States:
+    """Return the states that shears call for: stick within the traction bound, slip beyond it.
+
+    Within ``slack`` of the bound a node keeps its state.
+
+    Parameters
+    ----------
+    states : (n,) of the nodes now.
+    sought : (n,) shear of each node with which its creep would be zero [MPa].
+    bound : (n,) traction bound [MPa].
+    """
+    out = np.full(states.size, STICK, dtype=np.int8)
+    out[sought > bound + np.where(states == SLIP_PLUS, -slack, slack)] = SLIP_PLUS
+    out[sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)] = SLIP_MINUS
     return out
 
 

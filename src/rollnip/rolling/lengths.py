@@ -67,12 +67,16 @@ def creepage_by_ends(nip: Nip, layout: Layout, proposed: Layout) -> float:
     return _CREEPAGE_BY_SLIP * 0.5 * layout.width * nip.curvature * share
 
 
-def thinnest_covering(nip: Nip) -> float:
-    """Return the thickness of the thinner covering on a rigid core; inf without one [mm]."""
+def thinnest_covering(nip: Nip, least_poisson: float = -1.0) -> float:
+    """Return the thickness of the thinner covering on a rigid core; inf without one [mm].
+
+    ``least_poisson``: coverings with layers whose Poisson ratio is not above it do not count.
+    """
     coverings = (
         roller.coating_thickness
         for roller in (nip.upper, nip.lower)
         if roller.layers and roller.core is None
+        if all(layer.material.poisson > least_poisson for layer in roller.layers)
     )
     return min(coverings, default=inf)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import ceil, inf
+from math import ceil
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
 from rollnip.rolling.iterations import own_second_order, solve_on_mesh
-from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
@@ -65,13 +65,7 @@ class ZoneSolver:
     @cached_property
     def thinnest_incompressible(self) -> float:
         """Thickness of the thinner incompressible covering on a rigid core; inf if none [mm]."""
-        coverings = [
-            roller.coating_thickness
-            for roller in (self.nip.upper, self.nip.lower)
-            if not roller.is_rigid and roller.core is None
-            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-        ]
-        return min(coverings, default=inf)
+        return thinnest_covering(self.nip, _NEARLY_INCOMPRESSIBLE)
 
     def pieces(self, layout: Layout) -> int:
         """Return the number of linear pieces of an element.

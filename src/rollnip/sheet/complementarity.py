@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState, State, States
+from rollnip.contact import ContactState, State, States, stick_and_slip
 
 Array = NDArray[np.float64]
 
@@ -52,11 +52,6 @@ def next_slip(
     """
     kept = (state.states != State.FREE) & (state.pressure >= -little)
     sought = state.shear - creep / own
-    bound, room = friction * np.maximum(state.pressure, 0.0), friction * little
-    plus = sought > bound + np.where(state.states == State.SLIP_PLUS, -room, room)
-    minus = sought < -bound - np.where(state.states == State.SLIP_MINUS, -room, room)
-    out = state.states.copy()
-    out[kept] = State.STICK
-    out[kept & plus] = State.SLIP_PLUS
-    out[kept & minus] = State.SLIP_MINUS
-    return out
+    bound = friction * np.maximum(state.pressure, 0.0)
+    out = stick_and_slip(state.states, sought, bound, friction * little)
+    return np.where(kept, out, state.states)

@@ -355,7 +355,7 @@ class PlateSearch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Judged:
-    """What a solution says about its zones.
+    """Judgement of a solution: where it puts the ends of its zones, and what it violates.
 
     Attributes
     ----------

@@ -71,6 +71,44 @@ def test_a_wave_relaxes_by_the_complex_modulus(material):
     np.testing.assert_allclose(found, np.interp(arcs, s, wanted), atol=2e-3)
 
 
+def of_whole_rows(material, memory, values):
+    """Integrals along whole rows, slope by slope between points: sums of n^2 terms."""
+    by_row = memory.strip.by_column(values)
+    arcs = memory.strip.by_column(memory.strip.points[0])[:, 0, 0]
+    ends = memory.strip.ends
+    times = np.concatenate([ends[:1], arcs, ends[-1:]]) / memory.speed  # decreasing downstream
+    padded = np.concatenate([0.0 * by_row[:1], by_row, 0.0 * by_row[:1]])
+    slopes = (padded[:-1] - padded[1:]) / np.diff(times)[:, None, None]
+    area = memory_integral(material, times - times[1:-1, None])
+    return np.einsum("ki,irv->krv", np.diff(area), slopes)
+
+
+SHORT_AND_LONG = rn.Prony(
+    modulus=1.0, terms=((5.0, 1e-9), (2.0, 3e-4), (1.0, 0.02), (9.0, 1e9)), poisson=0.5
+)
+
+
+@pytest.mark.parametrize("material", [*SOLIDS.values(), SHORT_AND_LONG])
+@pytest.mark.parametrize("columns", [1, 32, 33, 100])
+def test_integrals_piece_by_piece_are_those_of_whole_rows(material, columns):
+    """To rounding, which differences of integrals over long times magnify to 1e-11."""
+    ends = 8.0 * np.sinh(np.linspace(-2.0, 2.0, columns + 1)) / np.sinh(2.0)
+    memory = Memory(Strip(Depths.of(covered(material), HALF), ends), SPEED)
+    values = np.random.default_rng(5).normal(size=(memory.strip.layer.size, 9, 2))
+    found = memory.strip.by_column(memory.history_integral(values))
+    wanted = of_whole_rows(material, memory, values)
+    np.testing.assert_allclose(found, wanted, atol=1e-10 * np.abs(wanted).max())
+
+
+def test_the_work_of_exponential_memory_grows_as_the_columns_do():
+    """Ten times as many columns call for ten times as many weights, not a hundred times."""
+    sizes = []
+    for columns in (100, 1000):
+        pieces = Memory(strip(covered(prony(1.0)), columns), SPEED)._layers[0][1]
+        sizes.append(sum(piece.weights.size for piece in pieces))
+    assert sizes[1] < 11.0 * sizes[0]
+
+
 def test_the_integral_of_the_memory_is_that_of_the_relaxation_modulus():
     """By quadrature of E(t)/E(inf) - 1, which has another closed form or none."""
     for name in ("Prony", "Zener"):
@@ -276,15 +314,17 @@ def test_a_stiff_glass_takes_few_products(monkeypatch, number):
 
 def test_near_and_far_memory_are_the_whole():
     """Stored near forces and those from far are all that come from other points."""
-    body = Body(strip(covered(prony(0.3, 0.4)), columns=12, reach=3.0), SPEED)
+    body = Body(strip(covered(prony(0.3, 0.4)), columns=70), SPEED)
     state = body.equilibrium(bump, body.at_rest())
     relaxing = RelaxingTangent.of(body.relaxing_stress(state))
-    size, band = body.strip.size, body.strip.band
-    stored = relaxing.with_near_columns(np.zeros((size, 3 * band + 1)))
-    near = np.zeros((size, size))
-    for column in range(size):
-        row = np.arange(max(0, column - 2 * band), min(size, column + band + 1))
-        near[row, column] = stored[column, 3 * band + row - column]
+    numbers, rows = body.strip.unknowns, body.strip.depths.row_layers.size
+    size = body.strip.size
+    near = np.zeros((size + 1, size + 1))  # fixed nodes have the number -1
+    own_point = memory_on_itself(relaxing)
+    np.add.at(near, (numbers[:, :, None], numbers[:, None]), relaxing.own_stiffness() - own_point)
+    ahead = numbers[:-rows, :, None], numbers[rows:, None]
+    np.add.at(near, ahead, relaxing.stiffness_to_next())
+    near = near[:-1, :-1]
     moved = np.random.default_rng(3).normal(size=size)
     local = np.append(moved, 0.0)[body.strip.unknowns]
     change = (relaxing.stress_derivative @ local[..., None]).reshape(local.shape[0], 9, -1)
@@ -296,3 +336,12 @@ def test_near_and_far_memory_are_the_whole():
     whole = near @ moved + relaxing.far_forces(moved)
     np.testing.assert_allclose(whole, force[:-1], atol=1e-10 * np.abs(force[:-1]).max())
     assert np.abs(relaxing.far_forces(moved)).max() < 0.5 * np.abs(force[:-1]).max()
+
+
+def memory_on_itself(relaxing):
+    """Stiffness of elements by the weight of each Gauss point on itself, without that of volume."""
+    by, rate = (
+        one.reshape(one.shape[0], 9, -1, 18)[:, :, :3]
+        for one in (relaxing.strain_derivative, relaxing.stress_derivative)
+    )
+    return np.einsum("epki,ep,epkj->eij", by, relaxing.memory.own_weights, rate)

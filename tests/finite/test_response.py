@@ -212,11 +212,11 @@ def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
     made = []
     for by_rows in (True, False):
         kind = property(
-            lambda strip, rows=by_rows: (strip.columns, strip.depths.row_layers.size, rows)
+            lambda strip, rows=by_rows: (strip.columns, strip.depths.row_layers.size, rows, False)
         )
         body = Body(Strip(depths, np.linspace(-4.0, 4.0, 17)))
         assert body.strip.order is not None
-        assert body.strip.band == 8 * 16 + 9
+        assert body.strip.bands == (8 * 16 + 9, 8 * 16 + 9)
         monkeypatch.setattr(Strip, "_kind", kind)
         acting = linear_between_nodes(nodes, p, q)
         made.append(

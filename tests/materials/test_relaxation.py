@@ -8,7 +8,12 @@ from scipy.special import erfcx
 
 import rollnip as rn
 from rollnip._errors import InvalidInputError
-from rollnip.materials import relaxation_modulus, shore_a_modulus, with_shore_a
+from rollnip.materials import (
+    exponential_terms,
+    relaxation_modulus,
+    shore_a_modulus,
+    with_shore_a,
+)
 
 TIMES = np.geomspace(1e-6, 1e4, 40)
 TERMS = ((2.0, 1e-3), (3.0, 1.0), (4.0, 1e2))
@@ -28,6 +33,22 @@ def test_a_half_order_zener_solid_relaxes_as_erfcx():
     )
     exact = 1.0 + 5.0 * erfcx(np.sqrt(TIMES / 0.1))
     np.testing.assert_allclose(relaxation_modulus(solid, TIMES), exact, rtol=1e-11)
+
+
+def test_exponential_terms_are_the_relaxation_over_the_relaxed_modulus():
+    shift = rn.WLF(c1=10.0, c2=60.0, reference=20.0)
+    solids = (
+        rn.Prony(modulus=0.5, terms=TERMS, poisson=0.5, temperature=30.0, shift=shift),
+        rn.StandardLinearSolid(modulus=2.0, stiffening=7.0, relaxation_time=0.3, poisson=0.4),
+    )
+    for solid in solids:
+        total = 1.0 + sum(g * np.exp(-TIMES / tau) for g, tau in exponential_terms(solid))
+        wanted = relaxation_modulus(solid, TIMES) / solid.relaxed_modulus
+        np.testing.assert_allclose(total, wanted, rtol=1e-11)
+    zener = rn.FractionalZener(
+        modulus=1.0, stiffening=5.0, relaxation_time=0.1, order=0.5, poisson=0.5
+    )
+    assert exponential_terms(zener) == []
 
 
 def test_elastic_stays_and_scalars_are_taken():

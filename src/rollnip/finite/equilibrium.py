@@ -225,8 +225,8 @@ class Body:
     ) -> Array:
         """Return the derivative of the internal forces by the displacements, before assembly.
 
-        Of every element, (elements, 18, 18). What relaxing stresses owe to other Gauss points is
-        left out.
+        Of every element, (elements, 18, 18). What relaxing stresses owe to other elements is left
+        out.
         """
         stiff = self.strip.stiffness(fields.isotropic, fields.c)
         stiff += derivatives[0].transpose(0, 2, 1) @ derivatives[1]
@@ -256,20 +256,18 @@ class Body:
         """Factorise the tangent stiffness, with the load stiffness in it if that is given."""
         derivatives = self._derivatives(fields)
         relaxing = None if fields.relaxing is None else RelaxingTangent.of(fields.relaxing)
-        stiffness = self._element_stiffness(fields, derivatives, relaxing).ravel()
-        stored = self.strip.storage_size
-        stiffness = summed(self.strip.slots, stiffness, stored + 1)[:stored]
+        entries = self._element_stiffness(fields, derivatives, relaxing).ravel()
+        if relaxing is not None:
+            entries = np.append(entries, relaxing.stiffness_to_next())
+        shape, bands = self.strip.storage, self.strip.bands
+        stored = shape[0] * shape[1]
+        stiffness = summed(self.strip.slots[: entries.size], entries, stored + 1)[:stored]
         if load_stiffness is not None:
             np.subtract.at(stiffness, *load_stiffness)
-        band = above = self.strip.band
-        matrix = stiffness.reshape(self.strip.size, 3 * band + 1)
-        if relaxing is not None:
-            matrix, above = relaxing.with_near_columns(matrix), 2 * band
-        factors, pivots, info = lapack.dgbtrf(matrix.T, band, above, overwrite_ab=1)
+        factors, pivots, info = lapack.dgbtrf(stiffness.reshape(shape).T, *bands, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        order = self.strip.order
-        return Tangent((band, above), factors, pivots, *derivatives, relaxing, order)
+        return Tangent(bands, factors, pivots, *derivatives, relaxing, self.strip.order)
 
     @cached_property
     def initial_tangent(self) -> Tangent:
@@ -277,7 +275,7 @@ class Body:
         fields = self._fields(self.at_rest())
         if self.memory is not None:
             return self._tangent(fields, None)
-        derivatives, band = self._derivatives(fields), self.strip.band
+        derivatives, band = self._derivatives(fields), self.strip.bands[0]
         entries, places = self.strip.lower_slots
         stiffness = self._element_stiffness(fields, derivatives, None).ravel()[entries]
         lower = summed(places, stiffness, (band + 1) * self.strip.size)

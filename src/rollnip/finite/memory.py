@@ -19,6 +19,10 @@ returns more energy than it took.
 In steady rolling a material point moves along its row of elements towards smaller arcs s with the
 speed V, so that its history is a function of the arc. Stresses are taken as linear between the
 Gauss points of a row; the integrals are then exact sums, relaxing = weights @ stresses of the row.
+
+Where g = sum_i g_i exp(-t/tau_i), what lies upstream of a place is remembered there as one number
+for each i, which decays downstream: h_i(t + d) = exp(-d/tau_i) h_i(t). A row is then summed piece
+by piece, each with the weights of its own stresses and with these states of memory.
 """
 
 from __future__ import annotations
@@ -29,7 +33,9 @@ from functools import cached_property
 import numpy as np
 
 from rollnip.finite.strip import Array, Indices, Strip
-from rollnip.materials import Material, memory_integral
+from rollnip.materials import Material, exponential_terms, memory_integral
+
+_PIECE = 32
 
 
 @dataclass(frozen=True)
@@ -46,8 +52,8 @@ class Memory:
     speed: float
 
     @cached_property
-    def _layers(self) -> list[tuple[Indices, Array]]:
-        """The rows of elements of every viscoelastic material, and its `_weights`."""
+    def _layers(self) -> list[tuple[Indices, list[_Piece]]]:
+        """The rows of elements of every viscoelastic material, and its pieces, upstream first."""
         rows: dict[Material, list[int]] = {}
         depths = self.strip.depths
         for row, layer in enumerate(depths.row_layers):
@@ -55,38 +61,33 @@ class Memory:
             if not material.is_elastic:
                 rows.setdefault(material, []).append(row)
         arcs = self.strip.by_column(self.strip.points[0])[:, 0, 0]
-        given = arcs, self.strip.ends[[0, -1]], self.speed
-        return [(np.array(where), _weights(one, *given)) for one, where in rows.items()]
+        times = np.concatenate([self.strip.ends[:1], arcs, self.strip.ends[-1:]]) / self.speed
+        return [(np.array(where), _pieces(one, times)) for one, where in rows.items()]
 
     def history_integral(self, values: Array) -> Array:
         """Return int g(t - t') df/dt' dt' of values f at Gauss points, (elements, 9, parts)."""
-        return self._summed(values, [weights for _, weights in self._layers])
+        return self._summed(values, is_far=False)
 
     def far_integral(self, values: Array) -> Array:
         """Return the same without the values of the own element and of the next one in its row."""
-        return self._summed(values, self._far)
+        return self._summed(values, is_far=True)
 
-    def _summed(self, values: Array, all_weights: list[Array]) -> Array:
+    def _summed(self, values: Array, *, is_far: bool) -> Array:
         parts = values.shape[-1]
         rows = self.strip.depths.row_layers.size
         by_row = self.strip.by_column(values)
         out = np.zeros(by_row.shape)
-        for (where, _), weights in zip(self._layers, all_weights, strict=True):
-            chosen = by_row[:, where].reshape(weights.shape[0], -1)
-            out[:, where] = (weights @ chosen).reshape(-1, where.size, 3 * parts)
+        for where, pieces in self._layers:
+            chosen = by_row[:, where].reshape(by_row.shape[0], -1)
+            made, state = np.empty(chosen.shape), np.zeros((len(pieces[0].kept), chosen.shape[1]))
+            for piece in pieces:
+                given = chosen[piece.points]
+                weights = piece.far_weights if is_far else piece.weights
+                made[piece.own] = weights @ given + piece.remembered @ state
+                state = piece.passed_on @ given[3:] + piece.kept * state
+            out[:, where] = made.reshape(-1, where.size, 3 * parts)
         back = out.reshape(-1, 3, rows, 3, parts).transpose(0, 2, 1, 3, 4)
         return np.ascontiguousarray(back).reshape(-1, 9, parts)
-
-    @cached_property
-    def _far(self) -> list[Array]:
-        """Weights without those of the own element and of the next one in its row, upstream.
-
-        Points downstream have a weight only where a layer has a constant loss factor.
-        """
-        column = np.arange(3 * self.strip.columns) // 3
-        ahead = column - column[:, None]
-        is_far = (ahead != 0) & (ahead != 1)
-        return [weights * is_far for _, weights in self._layers]
 
     @cached_property
     def near_weights(self) -> tuple[Array, Array]:
@@ -97,11 +98,13 @@ class Memory:
         """
         columns, rows = self.strip.columns, self.strip.depths.row_layers.size
         out = np.zeros((2, columns, rows, 3, 3))
-        here = np.arange(columns)
-        for where, weights in self._layers:
-            blocks = weights.reshape(columns, 3, columns, 3)
-            out[0][:, where] = (blocks[here, :, here] * (1.0 - np.eye(3)))[:, None]
-            out[1][:-1, where] = blocks[here[:-1], :, here[1:]][:, None]
+        for where, pieces in self._layers:
+            for piece in pieces:
+                own, following = out[:, piece.own.start // 3 : piece.own.stop // 3]
+                blocks = piece.weights.reshape(own.shape[0], 3, -1, 3)
+                here, ahead = np.arange(own.shape[0]), np.arange(blocks.shape[2] - 1)
+                own[:, where] = (blocks[here, :, here] * (1.0 - np.eye(3)))[:, None]
+                following[ahead[:, None], where] = blocks[ahead, :, ahead + 1][:, None]
         return out[0].reshape(-1, 3, 3), out[1].reshape(-1, 3, 3)
 
     @cached_property
@@ -109,8 +112,9 @@ class Memory:
         """Weight of the value at each Gauss point on itself, (elements, 9)."""
         rows = self.strip.depths.row_layers.size
         out = np.zeros((3 * self.strip.columns, rows))
-        for where, weights in self._layers:
-            out[:, where] = np.diagonal(weights)[:, None]
+        for where, pieces in self._layers:
+            for piece in pieces:
+                out[piece.own, where] = np.diagonal(piece.weights)[:, None]
         back = out.reshape(-1, 3, rows).transpose(0, 2, 1).reshape(-1, 3)
         return np.repeat(back, 3, axis=1)
 
@@ -121,12 +125,74 @@ class Memory:
         return any(not one.is_elastic and one.poisson < 0.5 for one in materials)
 
 
-def _weights(material: Material, arcs: Array, ends: Array, speed: float) -> Array:
-    """Return the weights of the values at ``arcs`` in the history integrals there, (n, n).
+@dataclass(frozen=True)
+class _Piece:
+    """How history integrals in neighbouring columns follow from what lies there and upstream.
 
-    Values are zero at both ``ends`` and beyond. Material comes from larger arcs.
+    Attributes
+    ----------
+    own : the Gauss points of these columns, along a row.
+    points : these and those of the next column upstream; there is none at the end of the mesh.
+    weights : (own, points) of the values in the integrals.
+    remembered : (own, exponentials) share that is left there of the states of memory, which are
+        those at the last one of ``points`` by values further upstream.
+    passed_on : (exponentials, points - 3) weights of all but the first three values in the states
+        with which the next piece, downstream, begins.
+    kept : (exponentials, 1) share of its own states that is left in these.
     """
-    times = np.concatenate([[ends[0]], arcs, [ends[1]]])[::-1] / -speed
-    area = memory_integral(material, times[1:-1, None] - times)
-    ramps = (area[:, :-1] - area[:, 1:]) / np.diff(times)
-    return (ramps[:, :-1] - ramps[:, 1:])[::-1, ::-1]
+
+    own: slice
+    points: slice
+    weights: Array
+    remembered: Array
+    passed_on: Array
+    kept: Array
+
+    @cached_property
+    def far_weights(self) -> Array:
+        """Weights without those of the own element and of the next one in its row, upstream.
+
+        Points downstream have a weight only where a layer has a constant loss factor.
+        """
+        column = np.arange(self.weights.shape[1]) // 3
+        ahead = column - column[: self.weights.shape[0], None]
+        return np.asarray(self.weights * ((ahead != 0) & (ahead != 1)))
+
+
+def _pieces(material: Material, times: Array) -> list[_Piece]:
+    """Return the pieces of rows of a material, upstream first; one if E(t) has no exponentials.
+
+    ``times``, (points + 2,) [s], are those at which material is on its way upstream of arc 0: at
+    the Gauss points of a row and at both ends of the mesh, where values are zero, as beyond.
+    """
+    terms = np.array(exponential_terms(material)).reshape(-1, 2, 1)
+    size, step = times.size - 2, 3 * _PIECE if terms.size else times.size
+    return [
+        _piece(material, terms, times, slice(first, min(first + step, size)))
+        for first in reversed(range(0, size, step))
+    ]
+
+
+def _piece(material: Material, terms: Array, times: Array, own: slice) -> _Piece:
+    """Return the piece of some Gauss points; ``terms``: (exponentials, 2, 1) g_i and tau_i."""
+    points = slice(own.start, min(own.stop + 3, times.size - 2))
+    around = times[points.start : points.stop + 2]  # with the neighbours on either side
+    here, last, next_last = around[1 : own.stop - own.start + 1], around[-2], around[3]
+    share, own_time = terms[:, 0], terms[:, 1]
+    area = -share * own_time * np.expm1(-np.maximum(around - next_last, 0.0) / own_time)
+    return _Piece(
+        own=own,
+        points=points,
+        weights=_weights(memory_integral(material, around - here[:, None]), around),
+        remembered=np.exp((here - last) / own_time).T,
+        passed_on=_weights(area, around)[:, 3:],
+        kept=np.exp((next_last - last) / own_time),
+    )
+
+
+def _weights(area: Array, times: Array) -> Array:
+    """Return the weights of values at all but the outer ``times`` in history integrals.
+
+    ``area``: the integral of g over the time that has passed since each of them, (integrals, n).
+    """
+    return np.diff(np.diff(area) / np.diff(times))

@@ -37,9 +37,15 @@ def unknowns_from_one(columns: int, elements: int) -> Indices:
     return numbers
 
 
-def size_and_band(columns: int, elements: int, by_rows: bool = False) -> tuple[int, int]:
-    """Return the number of unknowns of such a mesh, and of diagonals on either side of the main."""
-    return 4 * elements * (2 * columns + 1), 8 * columns + 9 if by_rows else 8 * elements + 5
+def size_and_bands(
+    columns: int, elements: int, by_rows: bool = False, has_memory: bool = False
+) -> tuple[int, int, int]:
+    """Return the number of unknowns of such a mesh, and of diagonals below the main one and above.
+
+    ``has_memory``: elements depend on the next one in their row, too (never ``by_rows``).
+    """
+    band = 8 * columns + 9 if by_rows else 8 * elements + 5
+    return 4 * elements * (2 * columns + 1), band, 2 * band if has_memory else band
 
 
 @lru_cache(maxsize=_MESHES_KEPT)
@@ -62,49 +68,36 @@ def placed(columns: int, elements: int, by_rows: bool) -> Indices:
     return numbers if by_place is None else np.append(by_place, -1)[numbers]
 
 
-def place(row: Indices, column: Indices, band: int) -> Indices:
+def place(row: Indices, column: Indices, bands: tuple[int, int]) -> Indices:
     """Return the places in banded storage, for dgbtrf, of entries at rows and columns."""
-    return column * (3 * band + 1) + 2 * band + row - column
+    below, above = bands
+    return column * (2 * below + above + 1) + below + above + row - column
 
 
 @lru_cache(maxsize=_MESHES_KEPT)
-def slots(columns: int, elements: int, by_rows: bool) -> Indices:
+def slots(columns: int, elements: int, by_rows: bool, has_memory: bool) -> Indices:
     """Return `Strip.slots` of such a mesh."""
     numbers = placed(columns, elements, by_rows)
-    size, band = size_and_band(columns, elements, by_rows)
-    row, column = numbers[:, :, None], numbers[:, None, :]
-    places = place(row, column, band)
-    places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (3 * band + 1) * size
-    flat = places.ravel()
+    size, *bands = size_and_bands(columns, elements, by_rows, has_memory)
+    pairs = [(numbers, numbers)]
+    if has_memory:
+        pairs.append((numbers[:-elements], numbers[elements:]))
+    parts = []
+    for rows, others in pairs:
+        row, column = rows[:, :, None], others[:, None, :]
+        places = place(row, column, (bands[0], bands[1]))
+        places[(row < 0) | (column < 0)] = (2 * bands[0] + bands[1] + 1) * size
+        parts.append(places.ravel())
+    flat = np.concatenate(parts)
     flat.setflags(write=False)
     return flat
-
-
-@lru_cache(maxsize=_MESHES_KEPT)
-def near_slots(columns: int, elements: int) -> Indices:
-    """Return places of the entries of each element, and of each with the next one in its row.
-
-    In banded storage with twice as many diagonals above the main one as below it. Entries of fixed
-    nodes are placed behind its end.
-    """
-    numbers = unknowns(columns, elements)
-    size, band = size_and_band(columns, elements)
-    parts = []
-    for rows, others in ((numbers, numbers), (numbers[:-elements], numbers[elements:])):
-        row, column = rows[:, :, None], others[:, None, :]
-        places = column * (4 * band + 1) + 3 * band + row - column
-        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (4 * band + 1) * size
-        parts.append(places.ravel())
-    both = np.concatenate(parts)
-    both.setflags(write=False)
-    return both
 
 
 @lru_cache(maxsize=_MESHES_KEPT)
 def lower_slots(columns: int, elements: int, by_rows: bool) -> tuple[Indices, Indices]:
     """Return `Strip.lower_slots` of such a mesh."""
     numbers = placed(columns, elements, by_rows)
-    band = size_and_band(columns, elements, by_rows)[1]
+    band = size_and_bands(columns, elements, by_rows)[1]
     row, column = np.broadcast_arrays(numbers[:, :, None], numbers[:, None, :])
     entries = np.flatnonzero(((column >= 0) & (row >= column)).ravel())
     places = (column * band + row).ravel()[entries]  # columns of the diagonal and `band` below it

@@ -12,7 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from rollnip.finite.memory import Memory
-from rollnip.finite.numbering import near_slots
 from rollnip.finite.strip import LINEAR, Array
 from rollnip.materials import Energy
 
@@ -180,9 +179,9 @@ class RelaxingTangent:
     """Derivative of the nodal forces of relaxing stresses by the displacements.
 
     The relaxing stress at a Gauss point depends on the displacements of its whole row. The
-    contribution of the point itself (`own_stiffness`) is part of the element's stiffness; those of
-    the other points of its element and of the next one are added to the banded matrix
-    (`with_near_columns`); the rest is applied without being stored (`far_forces`).
+    contribution of its own element (`own_stiffness`) is part of the element's stiffness; that of
+    the next one (`stiffness_to_next`) is stored in the banded matrix, too; the rest is applied
+    without being stored (`far_forces`).
 
     Attributes
     ----------
@@ -207,42 +206,30 @@ class RelaxingTangent:
         return cls(stress.memory, by.reshape(flat), stress.stress_derivative.reshape(flat), slope)
 
     def own_stiffness(self) -> Array:
-        """Return the stiffness by the weight of each Gauss point on itself, (elements, 18, 18)."""
-        by, rate = (
-            one.reshape(one.shape[0], 9, -1, 18)[:, :, :3]
-            for one in (self.strain_derivative, self.stress_derivative)
+        """Return the stiffness by the Gauss points of the same element, (elements, 18, 18)."""
+        count, own = self.strain_derivative.shape[0], self.memory.own_weights
+        held = self.memory.near_weights[0] @ self.stress_derivative.reshape(count, 3, -1)
+        by_part, rate = (
+            one.reshape(count, 9, -1, 18)[:, :, :3] for one in (held, self.stress_derivative)
         )
-        share = self.memory.own_weights[..., None, None]
-        count = by.shape[0]
-        by, rate = by.reshape(count, 27, 18), (share * rate).reshape(count, 27, 18)
-        return np.asarray(by.transpose(0, 2, 1) @ rate)
+        by_part += own[..., None, None] * rate  # of lambda m it is in the law of the volume
+        return np.asarray(self.strain_derivative.transpose(0, 2, 1) @ held.reshape(count, -1, 18))
+
+    def stiffness_to_next(self) -> Array:
+        """Return the stiffness by the Gauss points of the next element in the row.
+
+        Of each element that has one, (elements, 18, 18): its forces by displacements of the next.
+        """
+        rate = self.stress_derivative[self.memory.strip.depths.row_layers.size :]
+        count = rate.shape[0]
+        held = self.memory.near_weights[1][:count] @ rate.reshape(count, 3, -1)
+        by = self.strain_derivative[:count].transpose(0, 2, 1)
+        return np.asarray(by @ held.reshape(rate.shape))
 
     def _changes_by_others(self, local: Array) -> Array:
         """Return the changes of relaxing stresses that come from other Gauss points."""
         change = (self.stress_derivative @ local[..., None]).reshape(local.shape[0], 9, -1)
         return self.memory.history_integral(change) - self.memory.own_weights[..., None] * change
-
-    def with_near_columns(self, stored: Array) -> Array:
-        """Return a banded matrix plus what comes from the own element and the next of its row.
-
-        ``stored``, (unknowns, 3 band + 1), has ``band`` diagonals on either side of the main one;
-        the result, (unknowns, 4 band + 1), has twice as many above it.
-        """
-        strip = self.memory.strip
-        band, ahead = strip.band, strip.depths.row_layers.size
-        out = np.zeros((strip.size, 4 * band + 1))
-        out[:, band:] = stored
-        entries = []
-        for share, step in zip(self.memory.near_weights, (0, ahead), strict=True):
-            rate = self.stress_derivative[step:]
-            count = rate.shape[0]
-            held = share[:count] @ rate.reshape(count, 3, -1)
-            by = self.strain_derivative[:count].transpose(0, 2, 1)
-            entries.append((by @ held.reshape(rate.shape)).ravel())
-        places = near_slots(strip.columns, ahead)
-        added = np.bincount(places, np.concatenate(entries), minlength=out.size + 1)
-        out += added[: out.size].reshape(out.shape)
-        return out
 
     def far_forces(self, displacement: Array) -> Array:
         """Return the changes of forces (unknowns,) that come from beyond the next element."""

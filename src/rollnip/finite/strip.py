@@ -117,28 +117,28 @@ class Strip:
     @cached_property
     def size(self) -> int:
         """Number of unknown displacements."""
-        return numbering.size_and_band(*self._kind)[0]
+        return numbering.size_and_bands(*self._kind)[0]
 
     @cached_property
-    def _kind(self) -> tuple[int, int, bool]:
-        """Columns, elements of each, and whether matrices are ordered by rows of nodes.
+    def _kind(self) -> tuple[int, int, bool, bool]:
+        """Columns, elements of each, whether matrices are ordered by rows of nodes, and memory.
 
         They are where that makes the band narrower, as with many layers. With memory they are
-        ordered by columns, as `near_slots` wants them.
+        ordered by columns: elements then depend on the next one in their row, too.
         """
-        count = self.depths.row_layers.size
-        by_rows = count > self.columns and not self.depths.roller.is_viscoelastic
-        return self.columns, count, by_rows
+        count, has_memory = self.depths.row_layers.size, self.depths.roller.is_viscoelastic
+        return self.columns, count, count > self.columns and not has_memory, has_memory
 
     @property
-    def band(self) -> int:
-        """Diagonals of a stiffness matrix on either side of the main one."""
-        return numbering.size_and_band(*self._kind)[1]
+    def bands(self) -> tuple[int, int]:
+        """Diagonals of a stiffness matrix below the main one and above it."""
+        _, below, above = numbering.size_and_bands(*self._kind)
+        return below, above
 
     @property
     def order(self) -> Indices | None:
         """Row of the matrix of each unknown; None: in order."""
-        return numbering.order(*self._kind)
+        return numbering.order(*self._kind[:3])
 
     @cached_property
     def arcs(self) -> Array:
@@ -286,7 +286,10 @@ class Strip:
 
     @property
     def slots(self) -> Indices:
-        """Places in banded storage of the entries of the element matrices; behind it if fixed."""
+        """Places in banded storage of the entries of the element matrices; behind it if fixed.
+
+        With memory, those of each element with the next one in its row follow.
+        """
         return numbering.slots(*self._kind)
 
     @property
@@ -295,19 +298,20 @@ class Strip:
 
         In the banded storage of a symmetric matrix, for dpbtrf.
         """
-        return numbering.lower_slots(*self._kind)
+        return numbering.lower_slots(*self._kind[:3])
 
     @property
-    def storage_size(self) -> int:
-        """Number of entries in the banded storage of a matrix."""
-        return (3 * self.band + 1) * self.size
+    def storage(self) -> tuple[int, int]:
+        """Shape of the banded storage of a matrix, transposed."""
+        below, above = self.bands
+        return self.size, 2 * below + above + 1
 
     def place(self, row: Indices, column: Indices) -> Indices:
         """Return the places in banded storage of the entries of some unknowns."""
         order = self.order
         if order is not None:
             row, column = order[row], order[column]
-        return numbering.place(row, column, self.band)
+        return numbering.place(row, column, self.bands)
 
     @cached_property
     def layer(self) -> Indices:

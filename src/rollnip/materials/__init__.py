@@ -6,6 +6,7 @@ from rollnip.materials.energy import Energy, Gent, NeoHookean, Ogden, Slopes, Vo
 from rollnip.materials.passivity import is_passive
 from rollnip.materials.relaxation import (
     creep_compliance,
+    exponential_terms,
     memory_integral,
     relaxation_modulus,
     stiffness_of_hardness,
@@ -52,6 +53,7 @@ __all__ = [
     "Volumetric",
     "Yeoh",
     "creep_compliance",
+    "exponential_terms",
     "is_passive",
     "memory_integral",
     "relaxation_modulus",

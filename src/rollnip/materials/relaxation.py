@@ -64,17 +64,25 @@ def memory_integral(material: Material, time: NDArray[np.float64]) -> NDArray[np
         log = np.log(np.where(time == 0.0, 1.0, np.abs(time)))
         return np.asarray(material.loss_factor / np.pi * time * (1.0 - log))
     later = np.maximum(time, 0.0)
-    if isinstance(material, Prony | StandardLinearSolid):
-        terms = (
-            [modulus for modulus, _ in material.terms]
-            if isinstance(material, Prony)
-            else [material.stiffening]
-        )
-        out = np.zeros(time.shape)
-        for modulus, own in zip(terms, material.relaxation_times, strict=True):
-            out -= modulus / material.modulus * own * np.expm1(-later / own)
-        return out
+    terms = exponential_terms(material)
+    if terms:
+        return np.asarray(sum(-share * own * np.expm1(-later / own) for share, own in terms))
     return _interpolated(lambda t: _excess_area(material, t), later)
+
+
+def exponential_terms(material: Material) -> list[tuple[float, float]]:
+    """Return pairs (g_i, tau_i [s]) with E(t)/E(inf) - 1 = sum_i g_i exp(-t/tau_i).
+
+    Empty where E(t) is no finite sum of exponentials, or the material is elastic.
+    """
+    if isinstance(material, Prony):
+        moduli = [modulus for modulus, _ in material.terms]
+    elif isinstance(material, StandardLinearSolid):
+        moduli = [material.stiffening]
+    else:
+        return []
+    shares = [modulus / material.modulus for modulus in moduli]
+    return list(zip(shares, material.relaxation_times, strict=True))
 
 
 def _excess_area(material: Material, time: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -145,7 +145,7 @@ def test_losses_in_the_layers_are_the_dissipation(lossy):
     assert total == pytest.approx(lossy.dissipation_viscous, rel=3e-4)
 
 
-@pytest.mark.parametrize("thickness", [1e-3, 1e-7])
+@pytest.mark.parametrize("thickness", [1e-3, pytest.param(1e-7, marks=pytest.mark.slow)])
 def test_interface_under_a_film_carries_the_tractions(thickness):
     """However thin it is: no wave is needed that tractions do not have."""
     film = rn.Layer(thickness, rn.Elastic(modulus=3.0, poisson=0.5))

@@ -1,10 +1,10 @@
 """The discrete contact problem: which nodes touch, stick or slip, and where the zones end."""
 
-from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
+from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_states, stick_and_slip
 from rollnip.contact.edge_exponents import left_out_of_creep, left_out_of_tractions
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
-from rollnip.contact.free_ends import NEAR_ENOUGH, Layout
+from rollnip.contact.layout import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
     Crowding,
     Subdivision,
@@ -32,7 +32,6 @@ from rollnip.contact.problem import (
 
 __all__ = [
     "NEAR_ENOUGH",
-    "Complementary",
     "ContactProblem",
     "ContactState",
     "ContactZone",

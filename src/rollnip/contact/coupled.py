@@ -30,19 +30,15 @@ from rollnip.contact.problem import (
 _TINY = np.finfo(float).tiny
 
 
-def solve_states(
-    problem: ContactProblem, states: States, *, steps: int = 1, settled: bool = False
-) -> ContactState:
-    """Return the solution with given states; no inequality is checked.
-
-    ``steps`` and ``settled`` are copied into the solution.
+def solve_states(problem: ContactProblem, states: States) -> ContactState:
+    """Return the solution with given states, as settled; no inequality is checked.
 
     Raises
     ------
     numpy.linalg.LinAlgError
         where the system for these states is singular.
     """
-    return LinearSystem.of(problem, states).solved(problem, steps=steps, settled=settled)
+    return LinearSystem.of(problem, states).solved(problem)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +75,7 @@ class LinearSystem:
             raise np.linalg.LinAlgError("Singular matrix")
         return cls(problem, states, contact, stick, signs, factors, pivots)
 
-    def solved(
-        self, problem: ContactProblem, *, steps: int = 1, settled: bool = False
-    ) -> ContactState:
+    def solved(self, problem: ContactProblem) -> ContactState:
         """Return the solution of ``problem``, which may differ from the factorised one.
 
         Its clearance, creep lengths and offsets, and prescribed values may differ; its influence,
@@ -100,7 +94,7 @@ class LinearSystem:
             approach = float(unknowns[-2])
         if creepage is None:
             creepage = float(unknowns[-1]) + 0.0 if problem.friction > 0.0 else np.nan  # not -0
-        return ContactState(self.states, pressure, shear, approach, creepage, steps, settled)
+        return ContactState(self.states, pressure, shear, approach, creepage, 1, True)
 
     def _unknowns(self, problem: ContactProblem) -> Array:
         right = right_side(problem, self.contact, self.stick)
@@ -253,7 +247,8 @@ class CoupledActiveSet:
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """Iterate from ``states`` until a solution implies the states that it was solved with.
 
-        ``settled`` is false where that takes more than ``max_steps``.
+        ``settled`` is False where that takes more than ``max_steps``.
+
         """
         states = _ensure_solvable(problem, states)
         seen: set[bytes] = set()
@@ -261,12 +256,12 @@ class CoupledActiveSet:
             solution = solve_states(problem, states)
             wanted = next_states(problem, solution, self.rounding, holds_contact=self.holds_contact)
             if wanted.tobytes() == states.tobytes():
-                return replace(solution, steps=step, settled=True)
+                return replace(solution, steps=step)
             seen.add(states.tobytes())
             if wanted.tobytes() in seen:
                 wanted = _gentler(states, wanted, solution)
             states = _ensure_solvable(problem, wanted)
-        return replace(solution, steps=self.max_steps)
+        return replace(solution, steps=self.max_steps, settled=False)
 
 
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipj, ellipkm1
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
+from rollnip.contact.problem import Array, Indices, Mask
+
 Number = TypeVar("Number", np.float64, np.complex128)
 Crowding = tuple[tuple[float, float], ...]
 """How strongly nodes crowd at the start and at the stop of each zone, see `cosine_nodes`."""
@@ -170,7 +170,7 @@ def cubic_error(
     nodes: Array,
     elements: tuple[int, ...],
     crowding: Crowding,
-    left_out: NDArray[np.bool_],
+    left_out: Mask,
 ) -> float:
     """Return the estimated error of cubic interpolation between nodes, integrated over x.
 

@@ -15,7 +15,7 @@ from rollnip.contact.coupled import (
     solve_states,
     system_matrix,
 )
-from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States, unsolved
+from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, State, States
 
 
 @dataclass(slots=True)
@@ -36,7 +36,7 @@ class GivenStates:
             or not np.array_equal(last.states, states)
         ):
             last = self._last = LinearSystem.of(problem, states)
-        return last.solved(problem, settled=True)
+        return last.solved(problem)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,13 +66,13 @@ class Safeguarded:
         try:
             solution = self.fast.solve(problem, states)
         except np.linalg.LinAlgError:
-            solution = unsolved(problem)
+            solution = _unsolved(problem)
         if solution.settled or problem.x.size > self.most_nodes:
             return solution
         try:
             slow = self._by_interior_point(problem)
         except np.linalg.LinAlgError:
-            slow = unsolved(problem)
+            slow = _unsolved(problem)
         if not slow.settled and np.any(solution.pressure):
             slow = solution
         return replace(slow, steps=solution.steps + slow.steps)
@@ -83,9 +83,16 @@ class Safeguarded:
         states = found.touches.astype(np.int8)  # 1: STICK
         if found.states.size:
             states = np.where(found.touches, found.states, np.int8(FREE))
-        solution = solve_states(problem, states, steps=found.steps + 1)
-        consistent = np.array_equal(next_states(problem, solution, self.rounding), states)
-        return replace(solution, settled=consistent)
+        solution = solve_states(problem, states)
+        settled = np.array_equal(next_states(problem, solution, self.rounding), states)
+        return replace(solution, steps=found.steps + 1, settled=settled)
+
+
+def _unsolved(problem: ContactProblem) -> ContactState:
+    """Return a placeholder for a failed solution: all nodes free, not settled."""
+    zero = np.zeros(problem.x.size)
+    states = np.full(problem.x.size, State.FREE, dtype=np.int8)
+    return ContactState(states, zero, zero, 0.0, np.nan, 0, False)
 
 
 def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:

@@ -10,7 +10,7 @@ from math import copysign, exp, inf, log, pi
 import numpy as np
 
 from rollnip.contact.ends import outward_move, root_at, roots_beside
-from rollnip.contact.free_ends import Layout
+from rollnip.contact.layout import Layout
 from rollnip.contact.problem import STICK, Array, ContactState, Mask, State
 
 

@@ -152,10 +152,3 @@ def creep(problem: ContactProblem, state: ContactState) -> Array:
 def shear_signs(states: States) -> Array:
     """Return the sign of the shear, +1 or -1, where a node slips, and 0 elsewhere."""
     return np.array([0.0, 0.0, 1.0, -1.0]).take(states)
-
-
-def unsolved(problem: ContactProblem) -> ContactState:
-    """Return a placeholder for a failed solution: all nodes free, not settled."""
-    zero = np.zeros(problem.x.size)
-    states = np.full(problem.x.size, State.FREE, dtype=np.int8)
-    return ContactState(states, zero, zero, 0.0, np.nan, 0, False)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.linalg import lapack
 
-from rollnip.contact.free_ends import Layout
+from rollnip.contact.layout import Layout
 from rollnip.contact.problem import Array
 
 _LONGEST_STEP = 3.0  # longest step of an end, over the longest proposed move, or the last step

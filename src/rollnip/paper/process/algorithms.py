@@ -81,12 +81,12 @@ class Norm:
         seen: set[bytes] = set()
         single = False
         for step in range(1, self.max_steps * states.size + 1):
-            solution = solve_states(normal, states, steps=step)
+            solution = replace(solve_states(normal, states), steps=step)
             wrong = _tension(solution)
             if not np.any(wrong):
                 wrong = _overlap(normal, solution)
             if not np.any(wrong):
-                return replace(solution, shear=shear, creepage=np.nan, settled=True)
+                return replace(solution, shear=shear, creepage=np.nan)
             single = single or states.tobytes() in seen
             seen.add(states.tobytes())
             if single:  # Murty's least-index rule: finite for a P-matrix
@@ -116,12 +116,13 @@ class Tang:
         for step in range(1, self.max_steps + 1):
             if not np.any(states == State.STICK):
                 break
-            solution = solve_states(tangential, states, steps=step)
+            solution = replace(solve_states(tangential, states), steps=step)
             wanted = _over_bound(tangential, solution)
             if np.array_equal(wanted, states):
                 wanted = _wrong_way(tangential, solution)
             if np.array_equal(wanted, states):
-                return replace(solution, pressure=pressure, settled=True)
+                return replace(solution, pressure=pressure)
+
             states = wanted
         at_once = Safeguarded().solve(tangential, start)
         return replace(at_once, pressure=pressure)

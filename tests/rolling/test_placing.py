@@ -32,27 +32,27 @@ def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
     """However little it moved on the size before: that was the one of a coarser mesh."""
     search, start = placing
     coarse = search.solve(start, 26, zones_known=False)
-    still = replace(coarse, change=1e-3, expected=1e-6)
+    still = replace(coarse, change=1e-3, to_come=1e-6)
     fine = search.solve(still, 40, zones_known=True)
-    assert fine.before.mesh.kernels.held is not coarse.before.mesh.kernels.held
+    assert fine.solution.mesh.kernels.held is not coarse.solution.mesh.kernels.held
     assert fine.change != still.change
 
 
 def test_a_second_order_that_moves_as_much_as_before_is_not_still(placing):
     search, start = placing
     stand = search.solve(start, 26, zones_known=False)
-    again = search.solver.renewed(replace(stand, change=0.0, expected=inf))
+    again = search.solver.renewed(replace(stand, change=0.0, to_come=inf))
     assert again.change > 0.0
-    assert again.expected == inf
+    assert again.to_come == inf
 
 
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
     search, start = placing
     stand = search.solve(start, 26, zones_known=False)
-    once = search.solver.renewed(replace(stand, change=inf, expected=inf))
-    assert once.expected == inf  # one change tells nothing
-    twice = search.solver.renewed(replace(stand, change=4.0 * once.change, expected=inf))
-    assert twice.expected == pytest.approx(once.change / 3.0)
+    once = search.solver.renewed(replace(stand, change=inf, to_come=inf))
+    assert once.to_come == inf  # one change tells nothing
+    twice = search.solver.renewed(replace(stand, change=4.0 * once.change, to_come=inf))
+    assert twice.to_come == pytest.approx(once.change / 3.0)
 
 
 def located(nip, geometry):

@@ -114,7 +114,7 @@ def first_contact(
             with suppress(np.linalg.LinAlgError):
                 found = Placing(nip, coarse, held).solve(start, _COARSE_ELEMENTS, zones_known=False)
                 if found is not None:
-                    return held, found.before, ContactStage.COARSE
+                    return held, found.solution, ContactStage.COARSE
     refined = free_ends_from_nodes(nip, model, kernels, located) if located.settled else None
     if is_verified(refined, model):
         return kernels, refined, ContactStage.REFINED
@@ -289,4 +289,4 @@ def _with_moved_ends(
                 zones_known=True,
                 follows_correction=not is_crowded,
             )
-    return replace(latest if found is None else found.before, settled=found is not None)
+    return replace(latest if found is None else found.solution, settled=found is not None)

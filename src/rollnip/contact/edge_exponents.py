@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 from rollnip.contact.mesh import PIECES_PER_ELEMENT, cubic_matrix, gauss_points, with_means
 from rollnip.contact.problem import Array, State
 
-
 ComplexArray = NDArray[np.complex128]
 
 

@@ -15,7 +15,7 @@ from rollnip.contact.coupled import (
     solve_states,
     system_matrix,
 )
-from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, State, States
+from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States
 
 
 @dataclass(slots=True)
@@ -91,7 +91,7 @@ class Safeguarded:
 def _unsolved(problem: ContactProblem) -> ContactState:
     """Return a placeholder for a failed solution: all nodes free, not settled."""
     zero = np.zeros(problem.x.size)
-    states = np.full(problem.x.size, State.FREE, dtype=np.int8)
+    states = np.full(problem.x.size, FREE, dtype=np.int8)
     return ContactState(states, zero, zero, 0.0, np.nan, 0, False)
 
 

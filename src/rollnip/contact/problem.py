@@ -119,7 +119,9 @@ class ContactState:
     pressure, shear : (n,) nodal tractions [MPa].
     approach, creepage : delta [mm], xi; xi is nan if there is no friction and it is not prescribed.
     steps : number of linear systems solved.
-    settled : whether the solver converged: the solution implies the states it was solved with.
+    settled : whether the solver converged: the solution implies the states that it was solved with,
+        or these were given.
+
     """
 
     states: States

@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from rollnip.contact import Layout, elements_of_zones
 from rollnip.contact.secants import Secants
-from rollnip.rolling.estimates import length_change_ratio
-from rollnip.rolling.lengths import creepage_by_ends
-from rollnip.rolling.mesh_solution import Figures, MeshSolution
+from rollnip.rolling.mesh_solution import LEAST_SIZE, Figures, MeshSolution
+from rollnip.rolling.neglected_slip import creepage_by_ends
 from rollnip.rolling.search import SearchState
+from rollnip.rolling.surfaces import Array
 from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
 
 
@@ -28,7 +30,7 @@ class EndSearch:
     solver : of the contact with given zones.
     count : rough number of elements.
     state : state of the search, with the zones of the last mesh, or of the next one.
-    nearest : smallest misplacement so far, over the width.
+    least_misplacement : the smallest so far, over the width.
     ends : Broyden's method for the ends of the current zones.
     end_sensitivity : see `SearchState`.
     shape : of the meshes with the current zones; None: choose one.
@@ -44,7 +46,7 @@ class EndSearch:
     solver: ZoneSolver
     count: int
     state: SearchState
-    nearest: float
+    least_misplacement: float
     ends: Secants
     end_sensitivity: Figures | None
     shape: Shape | None = None
@@ -69,9 +71,9 @@ class EndSearch:
         return self.state.layout
 
     @property
-    def is_quiet(self) -> bool:
+    def second_order_settled(self) -> bool:
         """Whether the second order will no longer change."""
-        return self.solver.kernels.is_fixed or self.state.is_quiet
+        return self.solver.kernels.is_fixed or self.state.second_order_settled
 
     @property
     def end_error(self) -> Figures | None:
@@ -88,12 +90,12 @@ class EndSearch:
         solver, layout, shape = self.solver, self.layout, self._choose_shape()
         self.latest, self.proposed = solver.solve(self.state, shape)
         self.misplacement = self.proposed.distance(layout)
-        self.nearest = min(self.nearest, self.misplacement)
+        self.least_misplacement = min(self.least_misplacement, self.misplacement)
         self.next_layout = self.ends.next_layout(
             layout,
             self.proposed,
             solver.singular(self.latest, layout),
-            only_ends_move=self.latest.settled and self.is_quiet,
+            only_ends_move=self.latest.settled and self.second_order_settled,
         )
         self._learn_sensitivity()
 
@@ -103,7 +105,7 @@ class EndSearch:
         Elements are kept while ends are sought, as another mesh would shift the ends.
         """
         layout = self.layout
-        crowding = self.solver.crowding(layout, self.nearest * layout.width)
+        crowding = self.solver.crowding(layout, self.least_misplacement * layout.width)
         if self.shape is None or crowds_more(crowding, self.shape[1]):
             self.shape = elements_of_zones(layout.breaks, self.count, crowding), crowding
             self.ends.forget()
@@ -141,7 +143,7 @@ class EndSearch:
     def change_zones(self, other: SearchState) -> None:
         """Go on with other zones."""
         self.tried.add(other.layout.key)
-        self.ends = Secants(self.nearest * self.layout.width)
+        self.ends = Secants(self.least_misplacement * self.layout.width)
         self.state, self.shape = self.solver.renewed(other), None
         self.end_sensitivity, self.meshes = None, 0
 
@@ -149,7 +151,7 @@ class EndSearch:
         """Go on with the same zones, and their ends at the next places."""
         state = self.state
         self.state = self.solver.renewed(
-            SearchState(self.next_layout, self.latest, state.change, state.expected)
+            SearchState(self.next_layout, self.latest, state.change, state.to_come)
         )
 
     def result(self) -> SearchState:
@@ -160,9 +162,20 @@ class EndSearch:
             layout,
             replace(self.latest, zones=layout.zones, figures=figures),
             state.change,
-            state.expected,
-            self.misplacement,
+            state.to_come,
+            misplacement=self.misplacement,
             end_error=self.end_error,
             end_sensitivity=self.end_sensitivity,
             jacobian=self.ends.jacobian,
         )
+
+
+def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
+    """Return the largest change of a zone's length, over what is small.
+
+    Small is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width if
+    that is more.
+    """
+    lengths = after[1:] - after[:-1]
+    allowed = 3.0 * tolerance * np.maximum(lengths, LEAST_SIZE * lengths.sum())
+    return float((np.abs(lengths - (before[1:] - before[:-1])) / allowed).max())

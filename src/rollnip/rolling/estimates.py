@@ -13,15 +13,13 @@ from rollnip.materials import memory_integral, relaxation_modulus
 from rollnip.nip import Creepage, Nip, Traction
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, shown_order
-from rollnip.rolling.lengths import creepage_by_slip
 from rollnip.rolling.mesh_solution import (
-    LEAST_SIZE,
     Figures,
     MeshSolution,
     SecondaryFigures,
     creepage_scale,
 )
-from rollnip.rolling.overlooked import overlooked_states
+from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
 from rollnip.rolling.secondary import secondary_sizes
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -178,14 +176,3 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
-
-
-def length_change_ratio(before: Array, after: Array, tolerance: float) -> float:
-    """Return the largest change of a zone's length, over what is small.
-
-    Small is three times the tolerance, times the length of the zone or `LEAST_SIZE` of the width if
-    that is more.
-    """
-    lengths = after[1:] - after[:-1]
-    allowed = 3.0 * tolerance * np.maximum(lengths, LEAST_SIZE * lengths.sum())
-    return float((np.abs(lengths - (before[1:] - before[:-1])) / allowed).max())

@@ -24,8 +24,8 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
 )
 from rollnip.rolling.iterations import converge, with_residual
-from rollnip.rolling.lengths import negligible_slip
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
+from rollnip.rolling.neglected_slip import negligible_slip
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.secondary import secondary_figures
@@ -102,7 +102,7 @@ def _refined(
             break
         if not placed.layout.is_like(state.layout):
             history.clear()  # changes between different zones are no measure of the error
-        state, latest = placed, placed.before
+        state, latest = placed, placed.solution
         count = elements_without_crowding(latest)
         roughness = _roughness(nip, model, latest, roughness)
         if roughness > 1.0 and not history and nip.friction == 0.0:

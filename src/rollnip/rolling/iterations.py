@@ -21,8 +21,9 @@ from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import shortest_zone, tolerable_slip
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
+from rollnip.rolling.neglected_slip import tolerable_slip
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 Method = GivenStates | Safeguarded

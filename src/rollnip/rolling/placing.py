@@ -69,9 +69,9 @@ class Placing:
         None where no such solution is found.
         """
         # The second order held so far is from a coarser mesh: each size evaluates its own.
-        search = EndSearch.of(self.solver, replace(start, expected=inf), count)
+        search = EndSearch.of(self.solver, replace(start, to_come=inf), count)
         if follows_correction:
-            fine = start.before.mesh.fine
+            fine = start.solution.mesh.fine
             search.shape = np.array(fine.elements), fine.crowding
         most_meshes = self._most_meshes(start.layout)
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
@@ -81,11 +81,16 @@ class Placing:
             # The figures show errors of ends only with the zones of the previous size.
             same_zones = settles_figures and search.layout.is_like(start.layout)
             is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
-            is_near = not zones_known and search.misplacement < NEAR_ENOUGH and search.is_quiet
+            is_near = (
+                not zones_known
+                and search.misplacement < NEAR_ENOUGH
+                and search.second_order_settled
+            )
             others = self.search.other_zones(
                 search.latest,
-                (search.layout, search.proposed),
-                search.ends,
+                search.layout,
+                search.proposed,
+                search.ends.vanishing(search.layout, search.proposed),
                 is_placed=is_placed,
                 is_near=is_near,
             )
@@ -139,7 +144,7 @@ class Placing:
             self._are_ends_placed(
                 layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
             )
-            and (search.proposed.is_proper and latest.settled and search.is_quiet)
+            and (search.proposed.is_proper and latest.settled and search.second_order_settled)
             and not (by_figures and self._changes(search))
             and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
             and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)

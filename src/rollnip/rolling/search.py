@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
@@ -20,19 +20,18 @@ from rollnip.contact import (
     slipping_at_edges,
 )
 from rollnip.contact.features import runs
-from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.lengths import (
+from rollnip.rolling.lengths import shortest_zone
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
+from rollnip.rolling.neglected_slip import (
     is_negligible,
     negligible_change,
     negligible_slip,
-    shortest_zone,
+    overlooked_states,
 )
-from rollnip.rolling.mesh_solution import Figures, MeshSolution
-from rollnip.rolling.overlooked import overlooked_states
 from rollnip.rolling.surfaces import Array
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
@@ -45,10 +44,10 @@ class SearchState:
     Attributes
     ----------
     layout : the zones to solve with next.
-    before : the last solution.
+    solution : the last one.
     change : of the second-order terms when the second order of "second" was last evaluated, over
         the tolerance.
-    expected : sum of the changes that further evaluations would make, over the tolerance.
+    to_come : sum of the changes that further evaluations would make, over the tolerance.
     misplacement : largest error of the ends of zones, over the width of the contact.
     end_error : change of each figure that this misplacement may cause; None: not known.
     end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
@@ -57,18 +56,18 @@ class SearchState:
     """
 
     layout: Layout
-    before: MeshSolution
+    solution: MeshSolution
     change: float = inf
-    expected: float = inf
+    to_come: float = inf
     misplacement: float = NEAR_ENOUGH
     end_error: Figures | None = None
     end_sensitivity: Figures | None = None
     jacobian: Array | None = None
 
     @property
-    def is_quiet(self) -> bool:
+    def second_order_settled(self) -> bool:
         """Return whether further evaluations of the second order would change it negligibly."""
-        return self.expected <= 1.0
+        return self.to_come <= 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +80,9 @@ class ZoneSearch:
     def other_zones(
         self,
         latest: MeshSolution,
-        zones: tuple[Layout, Layout],
-        ends: Secants,
+        layout: Layout,
+        proposed: Layout,
+        vanishing: Sequence[int],
         *,
         is_placed: bool,
         is_near: bool,
@@ -94,14 +94,13 @@ class ZoneSearch:
 
         Parameters
         ----------
-        latest : the solution.
-        zones : its zones, and the same with the ends where the solution puts them.
-        ends : the search for the ends of these zones.
+        latest, layout : the solution, and its zones.
+        proposed : these zones with the ends where the solution puts them.
+        vanishing : numbers of the zones to which solutions leave no length.
         is_placed, is_near : whether the ends are placed, or nearly so.
         """
-        layout, proposed = zones
         keeps_stick = _keeps_stick(latest)
-        for number in ends.vanishing(layout, proposed):
+        for number in vanishing:
             fewer = layout.without(number, keeps_stick=keeps_stick)
             if fewer is not None:
                 yield SearchState(fewer, latest)
@@ -115,14 +114,14 @@ class ZoneSearch:
             if found is not None and (is_placed or not found.layout.is_like(layout)):
                 yield found
         if is_placed:
-            yield from self._beyond_states(latest, layout, proposed)
+            yield from self._zones_that_states_do_not_show(latest, layout, proposed)
 
-    def _beyond_states(
-        self, latest: MeshSolution, layout: Layout, edges: Layout
+    def _zones_that_states_do_not_show(
+        self, latest: MeshSolution, layout: Layout, proposed: Layout
     ) -> Iterator[SearchState]:
-        """Yield the zones called for by a solution with placed ends whose nodes keep their states.
+        """Yield the zones that a solution with placed ends calls for, though no node's state does.
 
-        ``edges``: its zones with the ends where it puts them.
+        Parameters are those of `other_zones`.
         """
         slipping = self.slipping_at_edges(latest, layout)
         if slipping is not None:
@@ -131,7 +130,7 @@ class ZoneSearch:
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
                 yield SearchState(opened, latest)
-        overlooked = self.overlooked(latest, edges)
+        overlooked = self.overlooked(latest, proposed)
         if overlooked is not None:
             yield overlooked
 

@@ -122,18 +122,18 @@ class ZoneSolver:
 
         It is unchanged if the second order has converged, or is fixed.
         """
-        before = state.before
-        if self.kernels.is_fixed or state.is_quiet:
+        if self.kernels.is_fixed or state.second_order_settled:
             return state
-        mesh, second, change = own_second_order(self.nip, self.model.geometry, self.kernels, before)
+        mesh, second, change = own_second_order(
+            self.nip, self.model.geometry, self.kernels, state.solution
+        )
         change /= self.model.tolerance
-        expected = to_come_after(change, state.change)
-        before = replace(before, mesh=mesh, second=second)
-        return SearchState(state.layout, before, change, expected)
+        renewed = replace(state.solution, mesh=mesh, second=second)
+        return SearchState(state.layout, renewed, change, to_come_after(change, state.change))
 
     def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
         """Return the solution on one mesh, and the zones with the ends that it proposes."""
-        layout, before = state.layout, state.before
+        layout, before = state.layout, state.solution
         mesh = self.at_ends(layout, shape, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(

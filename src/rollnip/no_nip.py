@@ -6,13 +6,13 @@ from math import isnan
 
 import numpy as np
 
+from rollnip.contact.problem import Array
 from rollnip.interior import SurfaceTractions, beyond_linear, interior_field
 from rollnip.materials import NeoHookean
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling import MeshSolution, rates_of
-from rollnip.rolling.surfaces import Array
 
 MOST_PRESSED_IN = 0.5
 """Compression of a layer or a sheet over its thickness, at most.

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from rollnip.contact import ContactZone, State
+from rollnip.contact.problem import Array
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import MeshSolution, PairFields, PairKernels, hoop_curvature
-from rollnip.rolling.surfaces import Array
 
 
 def fine_points(final: MeshSolution) -> Array:

@@ -17,7 +17,6 @@ In "finite" this contact is solved again and again, each time with another corre
 elements held fixed: see `rollnip.all_orders`.
 """
 
-from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.check import (
     PairFields,
     fields_at,
@@ -31,6 +30,7 @@ from rollnip.rolling.claimed_errors import (
     secondary_claims,
 )
 from rollnip.rolling.displacements import Displacements
+from rollnip.rolling.kinematics import stretch_excess, surface_depths
 from rollnip.rolling.mesh_solution import (
     Figures,
     IterationFailure,

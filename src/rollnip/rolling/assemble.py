@@ -6,33 +6,22 @@ from dataclasses import dataclass
 from math import isfinite, isnan, nan, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip.contact import (
     ContactProblem,
     ContactState,
-    ContactZone,
     Control,
-    State,
     carry,
     contact_zones,
 )
-from rollnip.geometry import (
-    linear_stretch,
-    rotation_stretch,
-    sagitta,
-    second_stretch,
-)
-from rollnip.interior import SurfaceTractions, loss_per_distance
+from rollnip.contact.problem import Array
 from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order, hoop_curvature
-
-Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from rollnip.rolling.kinematics import stretch_parts, surface_depths
+from rollnip.rolling.surface_work import loss_inside, slip_intervals, transmitted
+from rollnip.rolling.surfaces import Mesh, has_no_second_order
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,47 +134,6 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     return SecondOrder(clearance, length, offset, traction, lean)
 
 
-def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
-    """Return the depth of each deformed surface below the tangent at first touch, (n,) each [mm].
-
-    The approach is left out. At finite strain u_z belongs to the material that is at x after
-    deformation: the radius there is R - u_z.
-    """
-    sides = (
-        (nip.upper, u.x_upper, u.z_upper),
-        (nip.lower, u.x_lower, u.z_lower),
-    )
-    depths = []
-    for roller, u_x, u_z in sides:
-        if geometry == "corrected":
-            depths.append(sagitta(x, roller.curvature, u_x, u_z))
-        elif geometry in FINITE and roller.core is None:
-            depths.append(sagitta(x, roller.curvature, np.zeros_like(x), u_z))
-        else:
-            depths.append(0.5 * roller.curvature * x * x + u_z)
-    return depths[0], depths[1]
-
-
-def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
-    """Return int (stretch - 1) dx of the upper and lower surface per interval, (2, n - 1) [mm].
-
-    It is 0 for a rigid roller.
-    """
-    rollers = (nip.upper, nip.lower)
-    hoops = np.array([[hoop_curvature(roller, geometry)] for roller in rollers])
-    is_whole = [roller.core is None and not roller.is_rigid for roller in rollers]
-    if geometry in FINITE and all(is_whole):
-        return second_stretch(x, hoops, *u.rows)
-    excess = linear_stretch(x[1:] - x[:-1], hoops, *u.rows)
-    if geometry in RINGS:
-        excess += rotation_stretch(x[1:] - x[:-1], hoops, *u.rows)
-    if geometry in FINITE:
-        for out, whole, hoop, u_x, u_z in zip(excess, is_whole, hoops, *u.rows, strict=True):
-            if whole:
-                out[:] = second_stretch(x, hoop, u_x, u_z)
-    return excess
-
-
 def _stretch_terms(
     nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
@@ -200,138 +148,6 @@ def _stretch_terms(
     linear, beyond = stretch_parts(mesh.fine.nodes[1:], nip, geometry, mesh.kernels, flat, finer)
     excess = linear + beyond
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
-
-
-def stretch_parts(
-    x: Array,
-    nip: Nip,
-    geometry: Geometry,
-    kernels: PairKernels,
-    flat: Displacements,
-    u: Displacements,
-) -> tuple[Array, Array]:
-    """Return `stretch_excess` split into its linear part and the rest.
-
-    The rest is that held by ``kernels`` if they hold a stretch. ``flat``: the linear part of the
-    displacements ``u``.
-    """
-    dx, hoops = x[1:] - x[:-1], np.array(kernels.hoops)[:, None]
-    linear, beyond = linear_stretch(dx, hoops, *flat.rows), kernels.held_stretch(x)
-    if beyond is not None:
-        return linear, beyond
-    if geometry == "curved":
-        return linear, rotation_stretch(dx, hoops, *u.rows)
-    return linear, stretch_excess(x, nip, geometry, u) - linear
-
-
-def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:
-    """Return the creep over intervals of lengths ``dx`` (n,), from `stretch_excess` (2, n) [mm].
-
-    It is int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx.
-    """
-    upper, lower = excess
-    if geometry in ("linear", "corrected"):
-        # At small strain the product of creepage and strain is neglected.
-        return np.asarray(creepage * dx + upper - lower)
-    half = 0.5 * creepage
-    return np.asarray(creepage * dx + (1.0 + half) * upper - (1.0 - half) * lower)
-
-
-def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array | float:
-    """Return the length of the deformed interface over dx in each interval, (n - 1,).
-
-    It is 1 unless the strain is finite. Only then is x a place in the deformed state, and the shear
-    a force per length of interface; otherwise the shear is a force per dx.
-    """
-    if geometry not in FINITE:
-        return 1.0
-    middle, dx = 0.5 * (x[1:] + x[:-1]), x[1:] - x[:-1]
-    tilt = u.z_lower - u.z_upper
-    slope = (nip.lower.curvature - nip.upper.curvature) * middle + (tilt[1:] - tilt[:-1]) / dx
-    return np.asarray(np.sqrt(1.0 + 0.25 * slope**2))
-
-
-def mean_shear(mesh: Mesh, state: ContactState) -> Array:
-    """Return the mean acting shear on the intervals of the finer nodes[1:] [MPa]."""
-    shear = mesh.acting(state.shear)
-    return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
-
-
-def transmitted(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements, slips: Bools
-) -> tuple[Array, Array, tuple[Array, Array]]:
-    """Return int q lambda ds of the upper and the lower surface, (2,) [N/mm], and what it is of.
-
-    This is the power that the shear transmits, divided by the speed of that surface. Where surfaces
-    slip, lambda includes the short waves cut from the correction, as these belong to the actual
-    tractions; without them lambda would be that of other, smoother tractions.
-
-    Parameters
-    ----------
-    u : displacements at nodes[1:].
-    slips : (n,) whether the surfaces slip in each interval of the finer nodes[1:].
-
-    Returns
-    -------
-    The two integrals; the mean shear in each of these intervals, per dx, (n,) [MPa]; and in each of
-    them `stretch_excess` as solved, and with the short waves, (2, n) each.
-    """
-    x, finer, uncut = mesh.fine.nodes[1:], mesh.finer(u), mesh.uncut(u)
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
-    excess = stretch_excess(x, nip, geometry, finer)
-    whole = excess if uncut is u else stretch_excess(x, nip, geometry, mesh.finer(uncut))
-    pulls = (x[1:] - x[:-1] + np.where(slips, whole, excess)) @ shear
-    return pulls, shear, (excess, whole)
-
-
-def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
-    """Return which of the intervals between ``x`` have their middle in a slip zone, (n - 1,)."""
-    middle = 0.5 * (x[1:] + x[:-1])
-    slips = np.zeros(middle.size, dtype=bool)
-    for zone in zones:
-        if zone.state != State.STICK:
-            slips |= (middle > zone.start) & (middle < zone.stop)
-    return slips
-
-
-def moment(
-    side: Side,
-    nip: Nip,
-    geometry: Geometry,
-    mesh: Mesh,
-    state: ContactState,
-    u: Displacements,
-) -> float:
-    """Return the moment of the tractions about one axle, divided by the radius [N/mm].
-
-    ``u``: displacements at nodes[1:]. At height eta above the tangent and slope eta', the force per
-    dx is (q - p eta', p + q eta') on the upper surface, (-q - p eta', p - q eta') on the lower.
-    """
-    number, roller, sign = (0, nip.upper, 1.0) if side == "upper" else (1, nip.lower, -1.0)
-    x = mesh.fine.nodes[1:]
-    dx, middle = np.diff(x), 0.5 * (x[1:] + x[:-1])
-    p, q = mesh.acting(state.pressure), sign * mean_shear(mesh, state)
-    p = 0.5 * (p + np.append(p[1:], 0.0))
-    depth = surface_depths(x, nip, geometry, mesh.finer(u))[number]
-    slope, height = np.diff(depth) / dx, 0.5 * (depth[1:] + depth[:-1])
-    arm = 1.0 - roller.curvature * height
-    along, down = q - p * slope, p + q * slope
-    return float((arm * along + roller.curvature * middle * down) @ dx)
-
-
-def loss_inside(side: Side, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> float:
-    """Return the viscous loss inside one roller per distance rolled by its surface [N/mm].
-
-    It is that of the linear fields under the tractions of the solution; geometry "finite" adds the
-    contribution of all orders. In "second" it neglects a share as large as the strains.
-    """
-    roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
-    if not roller.is_viscoelastic:
-        return 0.0
-    shear, pressure = sign * mesh.acting(state.shear), mesh.acting(state.pressure)
-    tractions = SurfaceTractions.on_inner(mesh.fine.nodes, shear, pressure)
-    further = mesh.kernels.heat_beyond[0 if side == "upper" else 1]
-    return loss_per_distance(roller, tractions, geometry, nip.speed) + further
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:

@@ -7,7 +7,7 @@ from math import inf
 
 import numpy as np
 
-from rollnip.rolling.surfaces import Array
+from rollnip.contact.problem import Array
 
 _SAFETY_FACTOR = 1.5  # on a second-order estimate from two meshes; first order is cautious enough
 NEGLIGIBLE = 0.1

@@ -10,12 +10,13 @@ import numpy as np
 
 from rollnip._largest import largest
 from rollnip.contact import ContactZone, State, TurningSlip
+from rollnip.contact.problem import Array
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.displacements import Displacements
+from rollnip.rolling.kinematics import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.mesh_solution import MeshSolution, creepage_scale
-from rollnip.rolling.surfaces import Array, PairKernels
+from rollnip.rolling.surfaces import PairKernels
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,9 @@ from math import inf
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rollnip.contact.problem import Array
 from rollnip.finite import Equilibrium, Spline
-
-Array = NDArray[np.float64]
 
 
 class Field(Protocol):

@@ -13,11 +13,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rollnip.contact import Layout, elements_of_zones
+from rollnip.contact.problem import Array
 from rollnip.contact.secants import Secants
 from rollnip.rolling.mesh_solution import LEAST_SIZE, Figures, MeshSolution
 from rollnip.rolling.neglected_slip import creepage_by_ends
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Array
 from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
 
 

@@ -9,6 +9,7 @@ from math import inf
 
 import numpy as np
 
+from rollnip.contact.problem import Array
 from rollnip.materials import memory_integral, relaxation_modulus
 from rollnip.nip import Creepage, Nip, Traction
 from rollnip.rollers import Roller
@@ -21,7 +22,7 @@ from rollnip.rolling.mesh_solution import (
 )
 from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
 from rollnip.rolling.secondary import secondary_sizes
-from rollnip.rolling.surfaces import Array, Mesh
+from rollnip.rolling.surfaces import Mesh
 
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements.

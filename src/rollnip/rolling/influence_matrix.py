@@ -5,11 +5,9 @@ from __future__ import annotations
 from itertools import compress
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rollnip.contact import Subdivision, left_out_of_creep, left_out_of_tractions
-
-Array = NDArray[np.float64]
+from rollnip.contact.problem import Array
 
 
 def unit_tractions(fine: Subdivision) -> Array | None:

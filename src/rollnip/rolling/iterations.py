@@ -29,11 +29,11 @@ from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 Method = GivenStates | Safeguarded
 
 
-def holding(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
-    """Return influence functions that hold the second order of a solution; none at first.
+def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
+    """Return influence functions that hold the second order of the last solution, if any.
 
-    Only if they model it. The second order is small and smooth, so a few updates are enough, from
-    mesh to mesh. The last mesh is checked with its own.
+    Those that model no second order are returned as they are. The second order is small and smooth,
+    so a few updates are enough, from mesh to mesh. The last mesh is checked with its own.
     """
     if kernels.is_fixed:
         return kernels

@@ -18,13 +18,14 @@ from rollnip.contact import (
     TurningSlip,
     slip_by_turning,
 )
+from rollnip.contact.problem import Array
 from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.surfaces import Array, Mesh
+from rollnip.rolling.surfaces import Mesh
 
 LEAST_SIZE = 0.05
 """Least size that an error is relative to, over the largest that its figure may have.

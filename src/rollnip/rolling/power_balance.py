@@ -34,19 +34,13 @@ from math import isnan, nan
 
 import numpy as np
 
+from rollnip.contact.problem import Array, Mask
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import SIDES
-from rollnip.rolling.assemble import (
-    Bools,
-    creep_of,
-    loss_inside,
-    moment,
-    slip_intervals,
-    transmitted,
-)
+from rollnip.rolling.kinematics import creep_of
 from rollnip.rolling.mesh_solution import MeshSolution
-from rollnip.rolling.surfaces import Array
+from rollnip.rolling.surface_work import loss_inside, moment, slip_intervals, transmitted
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +117,7 @@ def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
     )
 
 
-def slip_losses(work: Array, zones: Sequence[Bools]) -> tuple[float, float]:
+def slip_losses(work: Array, zones: Sequence[Mask]) -> tuple[float, float]:
     """Return the loss by slip, and the work of slip that is reversed, along its own shear.
 
     Parameters

@@ -16,14 +16,14 @@ from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
     converge,
-    holding,
+    holding_second_order,
     solve_on_mesh,
     with_residual,
 )
 from rollnip.rolling.mesh_solution import MeshSolution, has_grip
-from rollnip.rolling.placing import MOST_MESHES, Placing
+from rollnip.rolling.placing import MOST_MESHES
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_solver import are_too_many
+from rollnip.rolling.zone_solver import ZoneSolver, are_too_many
 
 BY_NODES = Safeguarded()
 """Solver that seeks the states of a contact problem node by node."""
@@ -99,15 +99,15 @@ def by_nodes(
 ) -> Iterator[MeshSolution]:
     """Yield the solution found node by node on each of the mesh sizes.
 
-    For each size that is the last solution that has settled. One that has not settled is yielded
-    only as long as none has. The sequence ends early where nothing is pressed, or friction cannot
+    It is the last solution of a size that has settled. One that has not settled is yielded only as
+    long as none has. The sequence ends early where nothing is pressed, or friction cannot
     carry the prescribed traction.
     """
-    placing = Placing(nip, model, kernels)
+    solver = ZoneSolver(nip, model, kernels)
     before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
-        found, settled = _solve_at_size(placing, half_width, count, before)
+        found, settled = _solve_at_size(solver, half_width, count, before)
         any_settled = any_settled or settled is not None
         if settled is not None or not any_settled:
             yield settled or found
@@ -123,12 +123,12 @@ def finer_by_nodes(
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
-    found, settled = _solve_at_size(Placing(nip, model, kernels), 0.0, finer[0], before)
+    found, settled = _solve_at_size(ZoneSolver(nip, model, kernels), 0.0, finer[0], before)
     return settled or found
 
 
 def _solve_at_size(
-    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+    solver: ZoneSolver, half_width: float, count: int, before: MeshSolution | None
 ) -> tuple[MeshSolution, MeshSolution | None]:
     """Return the last solution node by node at one mesh size, and the last that has settled.
 
@@ -136,19 +136,18 @@ def _solve_at_size(
     """
     last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
-        found = _solve_by_nodes(placing, half_width, count, last or before)
+        found = _solve_by_nodes(solver, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
-        if not is_pressed or _zones_are_known(placing, found, last):
+        if not is_pressed or _zones_are_known(solver, found, last):
             break
         last = found
     return found, found if found.settled else last
 
 
 def _solve_by_nodes(
-    placing: Placing, half_width: float, count: int, before: MeshSolution | None
+    solver: ZoneSolver, half_width: float, count: int, before: MeshSolution | None
 ) -> MeshSolution:
     """Return the solution node by node on a mesh around the zones of ``before``, or a guess."""
-    nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
         around = Layout.with_free_surfaces(
             Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width
@@ -158,15 +157,15 @@ def _solve_by_nodes(
         if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
-    mesh = placing.solver.around(around, count, holding(kernels, before))
-    second, steps = first_guess(nip, mesh), 0
+    mesh = solver.around(around, count, holding_second_order(solver.kernels, before))
+    second, steps = first_guess(solver.nip, mesh), 0
     if before is not None:
         second, steps = before.second.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), second, steps
-    return solve_on_mesh(nip, model, mesh, start, BY_NODES, NEGLIGIBLE)
+    return solve_on_mesh(solver.nip, solver.model, mesh, start, BY_NODES, NEGLIGIBLE)
 
 
-def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolution | None) -> bool:
+def _zones_are_known(solver: ZoneSolver, latest: MeshSolution, before: MeshSolution | None) -> bool:
     """Return whether the zones are known well enough to place their ends.
 
     The first mesh of a size is dense at the edges only. It takes a second one to be dense at
@@ -174,8 +173,8 @@ def _zones_are_known(placing: Placing, latest: MeshSolution, before: MeshSolutio
     second-order terms of the one before, no end may have moved by more than an element.
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
-    if placing.kernels.is_fixed:
-        return before is not None or (len(latest.zones) == 1 and placing.solver.boundary >= element)
+    if solver.kernels.is_fixed:
+        return before is not None or (len(latest.zones) == 1 and solver.boundary >= element)
     if before is None or len(before.zones) != len(latest.zones):
         return False
     ends = np.array([(zone.start, zone.stop) for zone in latest.zones])

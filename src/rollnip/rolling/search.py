@@ -20,6 +20,7 @@ from rollnip.contact import (
     slipping_at_edges,
 )
 from rollnip.contact.features import runs
+from rollnip.contact.problem import Array
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
@@ -32,7 +33,6 @@ from rollnip.rolling.neglected_slip import (
     negligible_slip,
     overlooked_states,
 )
-from rollnip.rolling.surfaces import Array
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rollnip.contact import contact_intervals
+from rollnip.contact.problem import Array
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling.mesh_solution import (
@@ -14,7 +15,6 @@ from rollnip.rolling.mesh_solution import (
     peak_pressure,
 )
 from rollnip.rolling.power_balance import Powers, powers
-from rollnip.rolling.surfaces import Array
 
 
 def secondary_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> SecondaryFigures:

@@ -7,9 +7,9 @@ from functools import partial
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Subdivision
+from rollnip.contact.problem import Array, Mask
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -31,8 +31,6 @@ from rollnip.rolling.influence_matrix import (
     shorter_per_traction,
     unit_tractions,
 )
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +237,7 @@ class Mesh:
         return bool(self.is_beside_edge[self.acting(pressure).argmax()])
 
     @property
-    def is_beside_edge(self) -> NDArray[np.bool_]:
+    def is_beside_edge(self) -> Mask:
         """Return which of the finer nodes[1:-1] lie at an edge or in the element inside it."""
         edges, pieces = self.fine.edges, self.fine.pieces
         out = np.zeros(self.fine.nodes.size - 2, dtype=bool)

@@ -19,7 +19,7 @@ from rollnip.contact import (
     uncrowded,
 )
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
-from rollnip.contact.problem import Indices
+from rollnip.contact.problem import Array, Indices
 from rollnip.influence import has_stiff_skin
 from rollnip.influence.surface import STIFF_SKIN
 from rollnip.model import Model
@@ -29,7 +29,7 @@ from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
 # pressure.

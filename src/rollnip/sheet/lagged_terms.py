@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Torque, Traction
-from rollnip.rolling.assemble import loss_inside
+from rollnip.rolling.surface_work import loss_inside
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.iterate import InterfaceProblem, InterfaceSolution
 

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rollers import SIDES
-from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
+from rollnip.rolling.surface_work import loss_inside, moment
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]

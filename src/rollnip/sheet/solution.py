@@ -17,8 +17,8 @@ from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, MeshSolution, Powers, claims
-from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
+from rollnip.rolling.kinematics import stretch_excess, surface_depths
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length

@@ -9,6 +9,7 @@ import numpy as np
 
 from rollnip._errors import InvalidInputError
 from rollnip.contact import ContactState, ContactZone, State, contact_zones
+from rollnip.contact.problem import Array
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.paper.process.algorithms import Alternation
@@ -16,7 +17,7 @@ from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
 from rollnip.rolling.iterations import change_of
-from rollnip.rolling.surfaces import Array, Mesh, mesh_on
+from rollnip.rolling.surfaces import Mesh, mesh_on
 
 _MESHES = 4  # the last three graded to the zones of the one before
 _MOST_ITERATIONS = 40

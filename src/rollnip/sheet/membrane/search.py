@@ -30,8 +30,8 @@ from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, surface_depths
-from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling.kinematics import arc_ratio
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside

@@ -13,8 +13,8 @@ from rollnip.all_orders.contact_stages import ContactStage
 from rollnip.contact import NEAR_ENOUGH
 from rollnip.finite import FiniteResponse
 from rollnip.materials import Gent, Yeoh
-from rollnip.rolling import zone_solver
 from rollnip.rolling.check import surface_strain_in_nip
+from rollnip.rolling.zone_solver import ZoneSolver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -34,13 +34,8 @@ def counts(monkeypatch):
     evaluation = counted("evaluations", FiniteResponse.correction)
     monkeypatch.setattr(FiniteResponse, "correction", evaluation)
 
-    def mesh_on(nodes, kernels, fine):
-        """Count meshes with nodes at the ends of zones, not those on which zones are found."""
-        found["meshes"] += bool(fine.elements)
-        return original(nodes, kernels, fine)
-
-    original = zone_solver.mesh_on
-    monkeypatch.setattr(zone_solver, "mesh_on", mesh_on)
+    # Meshes with nodes at the ends of zones, not those on which zones are found.
+    monkeypatch.setattr(ZoneSolver, "at_ends", counted("meshes", ZoneSolver.at_ends))
     return found
 
 

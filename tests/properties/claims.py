@@ -30,7 +30,7 @@ from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import creepage_scale, peak_pressure
 from rollnip.rolling.assemble import contact_problem, second_order
 from rollnip.rolling.mesh_solution import Figures, scale_of_creepage
-from rollnip.rolling.surfaces import mesh_on
+from rollnip.rolling.surfaces import Mesh
 
 FINER = 10  # times as many elements
 FEWEST, MOST = 600, 1600  # elements of a reference
@@ -118,7 +118,7 @@ def reference(solution, finer=FINER, most=MOST):
 def _fine(solution, before, count, *, still):
     """Solve on about so many elements; another few meshes where one does not settle."""
     for growth in (1.0, 1.07, 0.93, 1.15):
-        mesh = mesh_on(graded_nodes(breaks(before), int(growth * count)), solution.kernels)
+        mesh = Mesh.on(graded_nodes(breaks(before), int(growth * count)), solution.kernels)
         found = _settled_on(solution, mesh, before, still)
         if found is not None:
             return found

@@ -10,7 +10,7 @@ from rollnip.contact import State, creep, gap, left_out_of_creep
 from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
-from rollnip.rolling.surfaces import mesh_on
+from rollnip.rolling.surfaces import Mesh
 
 FOAM = rn.Elastic(modulus=0.5, poisson=0.1)
 RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)
@@ -25,7 +25,7 @@ def pair(upper, lower, geometry="linear", count=30):
         friction=0.5,
     )
     kernels = pair_kernels(nip, geometry)
-    mesh = mesh_on(graded_nodes(np.array([-2.0, 2.0]), count), kernels)
+    mesh = Mesh.on(graded_nodes(np.array([-2.0, 2.0]), count), kernels)
     return nip, mesh, contact_problem(nip, mesh, first_guess(nip, mesh))
 
 
@@ -70,7 +70,7 @@ def test_problem_and_fresh_fields_agree(solved, name):
     solution = solved(name)
     state, mesh = solution.final.state, solution.final.mesh
     fine = replace(mesh.fine, exponents=(0j,) * len(mesh.fine.exponents))
-    plain = mesh_on(mesh.nodes, solution.kernels, fine).influence
+    plain = Mesh.on(mesh.nodes, solution.kernels, fine).influence
     problem = replace(solution.final.problem, influence=plain)
     nodes = mesh.nodes[1:]
     fields = fields_at(nodes, solution.nip, "linear", solution.kernels, solution.final)

@@ -9,7 +9,7 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.all_orders.corrections import PairCorrection
-from rollnip.rolling import zone_solver
+from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.membrane import search
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -19,17 +19,13 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def counted(monkeypatch):
     """Meshes that are assembled, by their nodes: bare, and with a sheet."""
     meshes = {"bare": [], "sheet": []}
-    for module, name, kind in (
-        (zone_solver, "mesh_on", "bare"),
-        (search, "membrane_mesh_on", "sheet"),
-    ):
-        assemble = getattr(module, name)
+    assemble = Mesh.on.__func__
 
-        def count(nodes, *more, kind=kind, assemble=assemble):
-            meshes[kind].append(nodes.size)
-            return assemble(nodes, *more)
+    def count(cls, nodes, *more):
+        meshes["bare" if cls.is_bare else "sheet"].append(nodes.size)
+        return assemble(cls, nodes, *more)
 
-        monkeypatch.setattr(module, name, count)
+    monkeypatch.setattr(Mesh, "on", classmethod(count))
     return meshes
 
 

@@ -115,27 +115,27 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     """Return the second-order terms that follow from a solution on a mesh."""
     if has_no_second_order(nip, geometry):
         return first_guess(nip, mesh)
-    flat = mesh.linear_displacements(state)
-    u = mesh.with_second(flat, state)
-    guess = first_guess(nip, mesh)
-    clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset
-    lean = 0.0
+    u_linear = mesh.linear_displacements(state)
+    u = mesh.with_second(u_linear, state)
+    clearance = length = offset = np.zeros(mesh.inner.size)
+    lean, traction = 0.0, None
     if geometry in ("corrected", *FINITE):
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
-        approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
+        approximate = (
+            0.5 * nip.curvature * mesh.inner**2 + (u_linear.z_upper + u_linear.z_lower)[:-1]
+        )
         clearance = depth - approximate
     if geometry in RINGS and nip.friction > 0.0:
-        length, offset = _stretch_terms(nip, geometry, mesh, flat, u)
+        length, offset = _stretch_terms(nip, geometry, mesh, u_linear, u)
     if geometry in FINITE:
         lean = _lean(nip, mesh, state, u)
-    traction = guess.traction
     if isinstance(nip.tangential, Torque):
         traction = _traction_for_torque(nip, geometry, mesh, state, u)
     return SecondOrder(clearance, length, offset, traction, lean)
 
 
 def _stretch_terms(
-    nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
+    nip: Nip, geometry: Geometry, mesh: Mesh, u_linear: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
     """Return ``creep_length`` and ``creep_offset`` of `SecondOrder` due to stretch [mm].
 
@@ -144,8 +144,10 @@ def _stretch_terms(
     independent of xi minus its linear part.
     """
     finer = mesh.finer(u)
-    flat = finer if flat is u else mesh.finer(flat)
-    linear, beyond = stretch_parts(mesh.fine.nodes[1:], nip, geometry, mesh.kernels, flat, finer)
+    u_linear = finer if u_linear is u else mesh.finer(u_linear)
+    linear, beyond = stretch_parts(
+        mesh.fine.nodes[1:], nip, geometry, mesh.kernels, u_linear, finer
+    )
     excess = linear + beyond
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
 

@@ -91,10 +91,10 @@ def _fields(
     final: MeshSolution,
     u: Displacements,
 ) -> PairFields:
-    state, flat, held = final.state, u, kernels.held
+    state, u_linear, held = final.state, u, kernels.held
     if held is not None and held.stretch is not None:
-        flat = Displacements(u.four - held.at(x).four)
-    linear, beyond = stretch_parts(x, nip, geometry, kernels, flat, u)
+        u_linear = Displacements(u.four - held.at(x).four)
+    linear, beyond = stretch_parts(x, nip, geometry, kernels, u_linear, u)
     upper, lower = surface_depths(x, nip, geometry, u)
     return PairFields(
         x=x,

@@ -56,16 +56,15 @@ def stretch_parts(
     nip: Nip,
     geometry: Geometry,
     kernels: PairKernels,
-    flat: Displacements,
+    u_linear: Displacements,
     u: Displacements,
 ) -> tuple[Array, Array]:
     """Return `stretch_excess` split into its linear part and the rest.
 
-    The rest is that held by ``kernels`` if they hold a stretch. ``flat``: the linear part of the
-    displacements ``u``.
+    If ``kernels`` hold a stretch, the rest is the one held. ``u_linear``: the linear part of ``u``.
     """
     dx, hoops = x[1:] - x[:-1], np.array(kernels.hoops)[:, None]
-    linear, beyond = linear_stretch(dx, hoops, *flat.rows), kernels.held_stretch(x)
+    linear, beyond = linear_stretch(dx, hoops, *u_linear.rows), kernels.held_stretch(x)
     if beyond is not None:
         return linear, beyond
     if geometry == "curved":

@@ -172,8 +172,12 @@ class Mesh:
     is_bare: ClassVar[bool] = True
 
     @classmethod
-    def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision) -> Self:
-        """Return the mesh with the influence functions of both surfaces evaluated on it."""
+    def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision | None = None) -> Self:
+        """Return the mesh with the influence functions of both surfaces evaluated on it.
+
+        Without ``fine`` tractions are linear between the nodes themselves.
+        """
+        fine = Subdivision(nodes) if fine is None else fine
         unit = unit_tractions(fine)
         places, n = (nodes[1:], fine.nodes), nodes.size - 2
         per_traction, influence = np.empty((0, 0, 0)), np.empty((0, 0))
@@ -314,14 +318,6 @@ def pressure_work(traction: Array, displacement: Array) -> float:
     """Return int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
     means = 0.5 * (traction + np.append(traction[1:], 0.0))
     return float(means @ (displacement[1:] - displacement[:-1]))
-
-
-def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None) -> Mesh:
-    """Return the mesh with the influence functions of both surfaces evaluated on it.
-
-    Without ``fine`` tractions are linear between the nodes themselves.
-    """
-    return Mesh.on(nodes, kernels, Subdivision(nodes) if fine is None else fine)
 
 
 def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:

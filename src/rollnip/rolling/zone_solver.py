@@ -29,7 +29,7 @@ from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.search import SearchState
-from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Mesh, PairKernels
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
 # pressure.
@@ -94,14 +94,14 @@ class ZoneSolver:
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
         exponents = layout.edge_exponents(self._beta, self.nip.friction)
         fine = subdivided(nodes, *shape, self.pieces(layout), edges, exponents)
-        return mesh_on(nodes, kernels, fine)
+        return Mesh.on(nodes, kernels, fine)
 
     def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on roughly known zones, to seek states node by node."""
         shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
         nodes = cosine_nodes(zones.breaks, *shape)
         fine = subdivided(nodes, *shape, self.pieces(zones))
-        return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+        return Mesh.on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
     @cached_property
     def settled_change(self) -> float:

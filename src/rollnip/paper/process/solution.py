@@ -17,7 +17,7 @@ from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
 from rollnip.rolling.iterations import change_of
-from rollnip.rolling.surfaces import Mesh, mesh_on
+from rollnip.rolling.surfaces import Mesh
 
 _MESHES = 4  # the last three graded to the zones of the one before
 _MOST_ITERATIONS = 40
@@ -86,7 +86,7 @@ def solve_by_process(
     breaks = _ROOM * half_width * np.array([-1.0, 1.0])
     zones: tuple[ContactZone, ...] = (ContactZone(-half_width, half_width, State.STICK),)
     for _ in range(_MESHES):
-        mesh = mesh_on(graded_nodes(breaks, elements), kernels)
+        mesh = Mesh.on(graded_nodes(breaks, elements), kernels)
         state, settled = _solved_on(nip, geometry, mesh, zones)
         if not np.any(state.states):
             raise InvalidInputError("No contact was found; try a larger load or other materials.")

@@ -56,7 +56,6 @@ from rollnip.sheet.membrane.system import (
     MembraneState,
     MembraneTerms,
     membrane_displacements,
-    membrane_mesh_on,
 )
 from rollnip.sheet.membrane.zones import MembraneZones
 from rollnip.sheet.secant import SecantSteps
@@ -192,7 +191,7 @@ class MembraneSearch:
         """Assemble the problem on a mesh with nodes at the zone ends."""
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._kernels_for(before)
-        mesh = membrane_mesh_on(nodes, kernels, subdivided(nodes, *shape))
+        mesh = MembraneMesh.on(nodes, kernels, subdivided(nodes, *shape))
         bends = before is not None and self.model.geometry != "linear"
         return MembraneProblem.on(self.nip, mesh, self._path_ratios(mesh, before), has_path=bends)
 

@@ -28,9 +28,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState, States, Subdivision
+from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
-from rollnip.rolling import Displacements, PairKernels
+from rollnip.rolling import Displacements
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.friction import frictions_of
@@ -137,11 +137,6 @@ def membrane_displacements(made: Array) -> Displacements:
         zz_l[:, 0] + xz_l[:, 2],
     ]
     return Displacements(np.stack(four))
-
-
-def membrane_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> MembraneMesh:
-    """Return a mesh with the influence functions of both surfaces evaluated on it."""
-    return MembraneMesh.on(nodes, kernels, fine)
 
 
 @dataclass(frozen=True, slots=True)

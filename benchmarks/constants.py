@@ -228,7 +228,7 @@ def off(solution, truth):
     elif not nip.has_half_space:
         sizes["approach"] = abs(truth.approach)
     if np.isfinite(truth.creepage) and not isinstance(nip.tangential, rn.Creepage):
-        from rollnip.rolling import creepage_scale
+        from rollnip.rolling.mesh_solution import creepage_scale
 
         sizes["creepage"] = creepage_scale(nip, truth)
     for name, size in sizes.items():

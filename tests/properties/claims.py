@@ -27,9 +27,8 @@ from rollnip.contact import (
 )
 from rollnip.influence import load_weights
 from rollnip.paper.process.nodes import graded_nodes, states_on
-from rollnip.rolling import creepage_scale, peak_pressure
 from rollnip.rolling.assemble import contact_problem, second_order
-from rollnip.rolling.mesh_solution import Figures, scale_of_creepage
+from rollnip.rolling.mesh_solution import Figures, creepage_scale, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh
 
 FINER = 10  # times as many elements

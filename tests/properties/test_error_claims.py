@@ -5,7 +5,7 @@ from claims import judge, reference, solved
 from population import numbers, random_case
 
 import rollnip as rn
-from rollnip.rolling import error_ratio
+from rollnip.rolling.mesh_solution import error_ratio
 
 # Least errors and allowances were set with numbers below 10 000: these have not been seen.
 UNSEEN = 100_000, 1_000_000

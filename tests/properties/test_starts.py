@@ -10,7 +10,8 @@ from claims import ROUNDING, scales
 from population import numbers, random_case
 
 import rollnip as rn
-from rollnip.rolling import error_ratio, half_width_guess, pair_kernels, refine
+from rollnip.rolling import half_width_guess, pair_kernels, refine
+from rollnip.rolling.mesh_solution import error_ratio
 from rollnip.rolling.refinement import SIZES, by_nodes, finer_by_nodes
 
 TOLERANCE = 1e-3

@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import Figures, creepage_scale, error_ratio, peak_pressure, peaks_alike
+from rollnip.rolling.mesh_solution import (
+    Figures,
+    creepage_scale,
+    error_ratio,
+    peak_pressure,
+    peaks_alike,
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FIGURES = Figures(approach=0.2, load=1.5, creepage=0.02, nip_width=4.0, peak_pressure=0.3)

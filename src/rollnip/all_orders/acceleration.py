@@ -13,13 +13,26 @@ from numpy.typing import NDArray
 
 from rollnip.all_orders.contact_stages import CONVERGED
 from rollnip.finite import Spline
-from rollnip.rolling.displacements import Field, SecondFields, Stretch, WeightedSum
+from rollnip.rolling.displacements import Field, SecondFields, Stretch
 
 Array = NDArray[np.float64]
 _PLACES_COMPARED = 65  # places at which they are compared
 # Iterations whose corrections are combined. Older ones show how a correction far away responded: of
 # 106 driven nips with much friction 103 settle with all of them, and all 106 with three.
 _COMBINED = 3
+
+
+@dataclass(frozen=True, slots=True)
+class _WeightedSum:
+    """A function of x that is a weighted sum of others."""
+
+    weights: tuple[float, ...]
+    functions: tuple[Field, ...]
+
+    def __call__(self, x: Array, order: int = 0) -> Array:
+        """Return the value at ``x``, or with ``order`` 1 the derivative."""
+        both = zip(self.weights, self.functions, strict=True)
+        return np.asarray(sum(weight * f(x, order) for weight, f in both))
 
 
 @dataclass
@@ -70,7 +83,7 @@ def _weighted_sum(weights: Array, fields: Sequence[SecondFields]) -> SecondField
     rough: list[Field | None] = []
     for several in zip(*(one.rough for one in fields), strict=True):
         given = tuple(f for f in several if f is not None)
-        rough.append(WeightedSum(tuple(weights.tolist()), given) if given else None)
+        rough.append(_WeightedSum(tuple(weights.tolist()), given) if given else None)
     lost = weights @ np.array([one.lost for one in fields])
     both = float(lost[0]), float(lost[1])
     stretch = _weighted_stretch(weights, fields)

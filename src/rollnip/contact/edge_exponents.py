@@ -51,7 +51,7 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
 def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
 
-    That is the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
+    They lack the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
     `Subdivision`), adjusted to have the means of that difference over the pieces.
 
     Parameters

@@ -233,8 +233,8 @@ def _cubics(
 def _zone_cubics(n: int, ratio: tuple[float, float], pieces: int) -> tuple[Array, Array, Array]:
     """Return the block of one zone of ``n`` elements in the matrices of `_cubics`.
 
-    That is values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means
-    between these, (pieces n, n + 1).
+    Its parts are the values and the acting tractions at the finer nodes of the zone,
+    (pieces n + 1, n + 1) each, and the means between these, (pieces n, n + 1).
     """
     finer = np.arange(pieces * n + 1) / pieces
     values = cubic_matrix(finer, n + 1)

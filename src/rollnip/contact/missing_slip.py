@@ -106,7 +106,7 @@ class TurningSlip:
     def length(self) -> float:
         """Length of the zone once slip is allowed there [mm].
 
-        That is about half the reach at a leading edge (on four nips 0.52 to 0.62 of it), and the
+        It is about half the reach at a leading edge (on four nips 0.52 to 0.62 of it), and the
         reach at a trailing edge (on seven 0.90 to 1.23, and 1.83 with a friction of 2).
         """
         return 0.5 * self.reach if self.leads else self.reach

@@ -35,9 +35,6 @@ from rollnip.rolling.mesh_solution import (
     Figures,
     IterationFailure,
     MeshSolution,
-    SecondaryFigures,
-    creepage_scale,
-    error_ratio,
     has_grip,
     peak_at,
     peak_pressure,
@@ -45,7 +42,6 @@ from rollnip.rolling.mesh_solution import (
 )
 from rollnip.rolling.power_balance import Powers, powers, rates_of
 from rollnip.rolling.refinement import refine
-from rollnip.rolling.secondary import secondary_figures, secondary_sizes
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     PairKernels,
@@ -61,10 +57,7 @@ __all__ = [
     "PairFields",
     "PairKernels",
     "Powers",
-    "SecondaryFigures",
     "claims",
-    "creepage_scale",
-    "error_ratio",
     "fields_at",
     "half_width_guess",
     "has_grip",
@@ -80,8 +73,6 @@ __all__ = [
     "refine",
     "relative_claims",
     "secondary_claims",
-    "secondary_figures",
-    "secondary_sizes",
     "stretch_excess",
     "surface_depths",
     "surface_strain_in_nip",

@@ -21,19 +21,6 @@ class Field(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class WeightedSum:
-    """A function of x that is a weighted sum of others."""
-
-    weights: tuple[float, ...]
-    functions: tuple[Field, ...]
-
-    def __call__(self, x: Array, order: int = 0) -> Array:
-        """Return the value at ``x``, or with ``order`` 1 the derivative."""
-        both = zip(self.weights, self.functions, strict=True)
-        return np.asarray(sum(weight * f(x, order) for weight, f in both))
-
-
-@dataclass(frozen=True, slots=True)
 class Displacements:
     """Displacements of both surfaces, each in its own frame, at n points.
 

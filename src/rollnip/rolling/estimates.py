@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
-from math import inf
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from rollnip.nip import Creepage, Nip, Traction
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, shown_order
 from rollnip.rolling.mesh_solution import (
+    UNKNOWN_ERROR,
     Figures,
     MeshSolution,
     SecondaryFigures,
@@ -61,7 +61,7 @@ class RefinementLevel:
 
     @cached_property
     def secondary(self) -> SecondaryFigures:
-        """SecondaryFigures figures, evaluated on first use."""
+        """The secondary figures, evaluated on first use."""
         return self.make_secondary()
 
 
@@ -160,7 +160,7 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
-        return Figures(inf, inf, inf, inf, inf)
+        return UNKNOWN_ERROR
     counts = np.array([level.count for level in history], dtype=float)
     values = np.array([level.figures.array() for level in history])
     values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes miss the peaks under a stiff skin
@@ -176,4 +176,4 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
     floor = LEAST_ERROR * scales / count**2
     floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
-    return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
+    return Figures(*np.where(given, change, np.maximum(change, floor)).tolist())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
 
 from rollnip._largest import largest
 from rollnip.contact import (
@@ -22,7 +21,13 @@ from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, peak_pressure, scale_of_creepage
+from rollnip.rolling.mesh_solution import (
+    UNKNOWN_ERROR,
+    Figures,
+    MeshSolution,
+    peak_pressure,
+    scale_of_creepage,
+)
 from rollnip.rolling.neglected_slip import tolerable_slip
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
@@ -89,13 +94,21 @@ def solve_on_mesh(
             break
     if zones is None:
         zones = contact_zones(problem.x, state, nip.friction)
-    unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
     settled = (
         state.settled and change <= settled_change * model.tolerance and figures.peak_pressure > 0.0
     )
     return MeshSolution(
-        mesh, problem, state, second, zones, figures, unknown, steps, settled, change
+        mesh=mesh,
+        problem=problem,
+        state=state,
+        second=second,
+        zones=zones,
+        figures=figures,
+        error=UNKNOWN_ERROR,
+        steps=steps,
+        settled=settled,
+        geometry_change=change,
     )
 
 

@@ -60,6 +60,10 @@ class Figures:
         return Figures(*(factor * self.array()).tolist())
 
 
+UNKNOWN_ERROR = Figures(inf, inf, inf, inf, inf)
+"""The error of figures that no two meshes have shown."""
+
+
 @dataclass(frozen=True, slots=True)
 class SecondaryFigures:
     """Figures without a tolerance of their own, or their errors.

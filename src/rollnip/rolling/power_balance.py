@@ -1,23 +1,15 @@
 """The power of the axles: torques, the loss by slip, the losses in viscoelastic layers.
 
-A surface that rolls steadily moves along the interface at V_r lambda, V_r being the circumferential
-speed of its roller and lambda its stretch; a pressure does no work on it. The power that an axle
-supplies is what its roller transmits and what it dissipates inside:
+An axle supplies the power that its roller transmits and the power that it loses inside (theory
+section 7):
 
     M_u V_u/R_u = V_u (int q lambda_u ds + w_u),   M_l V_l/R_l = V_l (w_l - int q lambda_l ds),
 
-with w the loss inside a roller per distance rolled and ds along the deformed interface. This is
-exact at any strain. The sum of both is the friction loss int q (V_u lambda_u - V_l lambda_l) ds
-plus the viscous loss V_u w_u + V_l w_l. So the balance closes in every geometry, provided the
-stretch is that of its creep, and no large terms cancel in a torque. The moments of pressure and
-shear about both axles must give the same torques to the order of the geometry; tests confirm it.
-In "linear" and "curved" the layers are in equilibrium in their undeformed shape, int (q du_x/dx +
-p du_z/dx) dx = -w, so that the torque over the radius is the moment of first order plus what the
-rotation of the surface stretches it by (in "curved" only):
-
-    M/R = int [q (1 - u_z/R) - p du_z/dx] dx + int q (du_z/dx + u_x/R)^2/2 dx,
-
-with the shear q on that roller and R infinite in both brackets where layers are flat.
+with the stretch lambda of a surface, the loss w inside a roller per distance rolled, and ds along
+the deformed interface. The sum of both is the friction loss plus the viscous loss V_u w_u + V_l w_l
+in every geometry, provided the stretch is the one in its creep; and no large terms cancel in a
+torque. The moments of pressure and shear about both axles must give the same torques to the order
+of the geometry; tests confirm it.
 
 Shear opposes slip, so the loss of a slip zone is never negative. A solution meets this only to its
 residual: in a zone of a thousandth of the contact slip may be reversed, by as little as the

@@ -36,7 +36,10 @@ class IsTooDeep(Protocol):
     """A function that judges how far layers are compressed: `no_nip.is_too_deep` for one nip."""
 
     def __call__(self, found: MeshSolution, *, is_rough: bool) -> bool:
-        """Return whether a solution presses a layer in too far; ``is_rough``: a rough solution."""
+        """Return whether a solution presses a layer in too far.
+
+        ``is_rough``: whether the solution is only a rough one.
+        """
         ...
 
 

@@ -72,7 +72,7 @@ class SearchState:
 
 @dataclass(frozen=True, slots=True)
 class ZoneSearch:
-    """The rules by which a solution shows that the zones of a nip are others."""
+    """The search for the other zones that a solution calls for."""
 
     nip: Nip
     model: Model
@@ -135,7 +135,7 @@ class ZoneSearch:
             yield overlooked
 
     def overlooked(self, latest: MeshSolution, edges: Layout) -> SearchState | None:
-        """Return the zones between given edges with slip and stick whose violations are small.
+        """Return the zones between given edges that nodes call for, however little.
 
         Return None where they change the creepage by no more than slip that is left out may.
         """

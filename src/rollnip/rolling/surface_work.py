@@ -12,23 +12,22 @@ from rollnip.nip import Nip
 from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.kinematics import arc_ratio, stretch_excess, surface_depths
-from rollnip.rolling.surfaces import Mesh
+from rollnip.rolling.surfaces import Mesh, interval_means
 
 
 def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     """Return the mean acting shear on the intervals of the finer nodes[1:] [MPa]."""
-    shear = mesh.acting(state.shear)
-    return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
+    return interval_means(mesh.acting(state.shear))
 
 
 def transmitted(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements, slips: Mask
 ) -> tuple[Array, Array, tuple[Array, Array]]:
-    """Return int q lambda ds of the upper and the lower surface, (2,) [N/mm], and what it is of.
+    """Return int q lambda ds of the upper and the lower surface, and its integrands.
 
-    This is the power that the shear transmits, divided by the speed of that surface. Where surfaces
+    The integral is the power that the shear transmits, over the speed of that surface. Where they
     slip, lambda includes the short waves cut from the correction, as these belong to the actual
-    tractions; without them lambda would be that of other, smoother tractions.
+    tractions; without them lambda would belong to other, smoother tractions.
 
     Parameters
     ----------
@@ -37,8 +36,8 @@ def transmitted(
 
     Returns
     -------
-    The two integrals; the mean shear in each of these intervals, per dx, (n,) [MPa]; and in each of
-    them `stretch_excess` as solved, and with the short waves, (2, n) each.
+    The two integrals, (2,) [N/mm]; the mean shear in each of these intervals, per dx, (n,) [MPa];
+    and in each of them `stretch_excess` as solved, and with the short waves, (2, n) each [mm].
     """
     x, finer, uncut = mesh.fine.nodes[1:], mesh.finer(u), mesh.uncut(u)
     shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
@@ -74,8 +73,7 @@ def moment(
     number, roller, sign = (0, nip.upper, 1.0) if side == "upper" else (1, nip.lower, -1.0)
     x = mesh.fine.nodes[1:]
     dx, middle = np.diff(x), 0.5 * (x[1:] + x[:-1])
-    p, q = mesh.acting(state.pressure), sign * mean_shear(mesh, state)
-    p = 0.5 * (p + np.append(p[1:], 0.0))
+    p, q = interval_means(mesh.acting(state.pressure)), sign * mean_shear(mesh, state)
     depth = surface_depths(x, nip, geometry, mesh.finer(u))[number]
     slope, height = np.diff(depth) / dx, 0.5 * (depth[1:] + depth[:-1])
     arm = 1.0 - roller.curvature * height
@@ -86,8 +84,8 @@ def moment(
 def loss_inside(side: Side, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> float:
     """Return the viscous loss inside one roller per distance rolled by its surface [N/mm].
 
-    It is that of the linear fields under the tractions of the solution; geometry "finite" adds the
-    contribution of all orders. In "second" it neglects a share as large as the strains.
+    It is the loss of the linear fields under the tractions of the solution; geometry "finite" adds
+    the contribution of all orders. In "second" it neglects a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:

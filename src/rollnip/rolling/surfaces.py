@@ -316,8 +316,12 @@ class Mesh:
 
 def pressure_work(traction: Array, displacement: Array) -> float:
     """Return int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
-    means = 0.5 * (traction + np.append(traction[1:], 0.0))
-    return float(means @ (displacement[1:] - displacement[:-1]))
+    return float(interval_means(traction) @ (displacement[1:] - displacement[:-1]))
+
+
+def interval_means(traction: Array) -> Array:
+    """Return the means of a traction at nodes[1:-1] over the intervals between nodes[1:]."""
+    return np.asarray(0.5 * (traction + np.append(traction[1:], 0.0)))
 
 
 def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:

@@ -124,8 +124,8 @@ def with_secondary_errors(
 
 def _secondary_error(
     nip: Nip, latest: MeshSolution, history: Sequence[RefinementLevel]
-) -> SecondaryFigures | None:
-    """Return the estimated errors of the secondary figures; None where there is a single mesh.
+) -> SecondaryFigures:
+    """Return the estimated errors of the secondary figures, from two mesh sizes or more.
 
     As for `Figures`, the last change between meshes is taken with the order that they show, earlier
     changes with second order, and no error is below the least that such meshes have on random nips.
@@ -133,8 +133,6 @@ def _secondary_error(
     and with them the powers, which are quadratic in them. They change the length in contact by one
     misplacement at either edge.
     """
-    if len(history) < 2:
-        return None
     counts = np.array([level.count for level in history], dtype=float)
     values = np.array([level.secondary.array() for level in history])
     order = np.ones(8) if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))

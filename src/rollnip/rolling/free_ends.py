@@ -23,7 +23,7 @@ from rollnip.rolling.estimates import (
     with_errors,
     with_secondary_errors,
 )
-from rollnip.rolling.iterations import converge, with_residual
+from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.neglected_slip import negligible_slip
 from rollnip.rolling.placing import Placing
@@ -114,8 +114,7 @@ def _refined(
         best = latest = with_errors(nip, latest, history, state.end_error)
         ratio = error_ratio(nip, latest, model.tolerance)
         if largest(ratio, roughness) <= 1.0:
-            final = converge(nip, model, latest, placing.solver.given, latest.zones)
-            final = with_residual(nip, model, placing.kernels, final)
+            final = with_residual(nip, model, placing.kernels, latest)
             if final.residual <= model.tolerance:
                 return with_secondary_errors(nip, final, history)
             ratio = final.residual / model.tolerance

@@ -17,7 +17,6 @@ from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
-from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
@@ -136,24 +135,6 @@ def figures_of(
         nip_width=zones[-1].stop - zones[0].start if zones else 0.0,
         peak_pressure=peak,
     )
-
-
-def converge(
-    nip: Nip,
-    model: Model,
-    latest: MeshSolution,
-    method: Method,
-    zones: tuple[ContactZone, ...] | None = None,
-) -> MeshSolution:
-    """Return a solution iterated until its second-order terms change no more than a result's may.
-
-    ``zones``: see `solve_on_mesh`.
-    """
-    if not latest.settled or latest.geometry_change <= NEGLIGIBLE * model.tolerance:
-        return latest
-    start = (latest.state.states, latest.second, latest.steps)
-    converged = solve_on_mesh(nip, model, latest.mesh, start, method, NEGLIGIBLE, zones)
-    return replace(converged, error=latest.error, make_secondary_error=latest.make_secondary_error)
 
 
 def with_residual(

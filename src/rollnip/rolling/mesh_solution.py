@@ -148,7 +148,7 @@ class MeshSolution:
     settled: bool
     geometry_change: float
     residual: float = inf
-    make_secondary_error: Callable[[], SecondaryFigures | None] | None = None
+    make_secondary_error: Callable[[], SecondaryFigures] | None = None
     cut: float = 0.0
     failure: IterationFailure | None = None
 

@@ -15,7 +15,6 @@ from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
-    converge,
     holding_second_order,
     solve_on_mesh,
     with_residual,
@@ -80,7 +79,7 @@ def refine(
     best = best or latest
     if not best.figures.peak_pressure > 0.0:
         return best
-    return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
+    return with_residual(nip, model, kernels, best)
 
 
 def free_ends_from_nodes(

@@ -9,7 +9,7 @@ import rollnip as rn
 from rollnip.contact import Layout, State, elements_of_zones
 from rollnip.rolling import pair_kernels
 from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, overlooked_states
-from rollnip.rolling.search import SearchState, ZoneSearch
+from rollnip.rolling.zone_search import SearchState, ZoneSearch
 from rollnip.rolling.zone_solver import ZoneSolver
 
 SOFT = rn.Elastic(modulus=0.8, poisson=0.49)

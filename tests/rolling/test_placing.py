@@ -13,7 +13,7 @@ from rollnip.influence import KernelCache
 from rollnip.rolling import half_width_guess, pair_kernels
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import SIZES, by_nodes
-from rollnip.rolling.search import SearchState
+from rollnip.rolling.zone_search import SearchState
 
 FINITE = rn.Model(geometry="second")
 

@@ -10,7 +10,7 @@ from rollnip.contact import Layout
 from rollnip.paper import figure_4
 from rollnip.rolling.claimed_errors import claims
 from rollnip.rolling.placing import Placing
-from rollnip.rolling.search import SearchState
+from rollnip.rolling.zone_search import SearchState
 
 # Bends beside an edge at finite strain over those of linear displacements, which no elements
 # disturb: 0.91 to 1.08 on 12 skins. Forces at the columns of elements made 1.8 to 2.3 of them.

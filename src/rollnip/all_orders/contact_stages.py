@@ -37,8 +37,8 @@ from rollnip.rolling.refinement import (
     free_ends_from_nodes,
     refine,
 )
-from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.zone_search import SearchState
 
 # Violation of the contact conditions, or change of the correction, below which the iteration may
 # end: over the tolerance or, if that is larger, over the violation on account of the cut-off, which

@@ -160,7 +160,6 @@ def _friction_errors(
 ) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
-    over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
     ends = np.array([end for zone in final.zones for end in (zone.start, zone.stop)])
     is_far = np.min(np.abs(final.x[:, None] - ends), axis=1, initial=np.inf) > shortest
     every_creep = fields.creep.copy()
@@ -168,7 +167,7 @@ def _friction_errors(
         is_far &= ~slip.covers(final.x)
         every_creep[slip.covers(fields.x[1:]) | slip.covers(fields.x[:-1])] = 0.0
     allowed = creepage_scale(nip, figures) * figures.nip_width
-    errors = [float(over[is_far].max(initial=0.0)) / bound]
+    errors = [float(final.over_bound[is_far].max(initial=0.0)) / bound]
     for zone in final.zones:
         creep = every_creep[_intervals_in(fields.x, zone)]
         if zone.state == State.STICK:

@@ -17,7 +17,7 @@ from rollnip.contact.problem import Array
 from rollnip.contact.secants import Secants
 from rollnip.rolling.mesh_solution import LEAST_SIZE, Figures, MeshSolution
 from rollnip.rolling.neglected_slip import creepage_by_ends
-from rollnip.rolling.search import SearchState
+from rollnip.rolling.zone_search import SearchState
 from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
 
 
@@ -31,7 +31,7 @@ class EndSearch:
     count : rough number of elements.
     state : state of the search, with the zones of the last mesh, or of the next one.
     least_misplacement : the smallest so far, over the width.
-    ends : Broyden's method for the ends of the current zones.
+    secants : Broyden's method for the ends of the current zones.
     end_sensitivity : see `SearchState`.
     shape : of the meshes with the current zones; None: choose one.
     last : zones and figures of the last mesh of this shape; None: there is none.
@@ -39,6 +39,7 @@ class EndSearch:
     tried : keys of zones tried before.
     latest : the solution on the last mesh.
     proposed : its zones with the ends where the solution puts them.
+    vanishing : numbers of the zones to which the last two solutions leave no length.
     next_layout : its zones with the ends at the next places to try.
     misplacement : distance of the ends from the proposed places, over the width.
     """
@@ -47,7 +48,7 @@ class EndSearch:
     count: int
     state: SearchState
     least_misplacement: float
-    ends: Secants
+    secants: Secants
     end_sensitivity: Figures | None
     shape: Shape | None = None
     last: tuple[Layout, Figures] | None = None
@@ -55,15 +56,16 @@ class EndSearch:
     tried: set[bytes] = field(default_factory=set)
     latest: MeshSolution = field(init=False)
     proposed: Layout = field(init=False)
+    vanishing: list[int] = field(init=False)
     next_layout: Layout = field(init=False)
     misplacement: float = field(init=False)
 
     @classmethod
     def of(cls, solver: ZoneSolver, start: SearchState, count: int) -> EndSearch:
         """Begin a search with the zones of ``start``."""
-        ends = Secants(start.misplacement * start.layout.width, start.jacobian)
+        secants = Secants(start.misplacement * start.layout.width, start.jacobian)
         state = solver.renewed(start)
-        return cls(solver, count, state, start.misplacement, ends, start.end_sensitivity)
+        return cls(solver, count, state, start.misplacement, secants, start.end_sensitivity)
 
     @property
     def layout(self) -> Layout:
@@ -89,9 +91,10 @@ class EndSearch:
         self.meshes += 1
         solver, layout, shape = self.solver, self.layout, self._choose_shape()
         self.latest, self.proposed = solver.solve(self.state, shape)
+        self.vanishing = self.secants.vanishing(layout, self.proposed)
         self.misplacement = self.proposed.distance(layout)
         self.least_misplacement = min(self.least_misplacement, self.misplacement)
-        self.next_layout = self.ends.next_layout(
+        self.next_layout = self.secants.next_layout(
             layout,
             self.proposed,
             solver.singular(self.latest, layout),
@@ -108,7 +111,7 @@ class EndSearch:
         crowding = self.solver.crowding(layout, self.least_misplacement * layout.width)
         if self.shape is None or crowds_more(crowding, self.shape[1]):
             self.shape = elements_of_zones(layout.breaks, self.count, crowding), crowding
-            self.ends.forget()
+            self.secants.forget()
             self.last = None
         return self.shape
 
@@ -143,7 +146,7 @@ class EndSearch:
     def change_zones(self, other: SearchState) -> None:
         """Go on with other zones."""
         self.tried.add(other.layout.key)
-        self.ends = Secants(self.least_misplacement * self.layout.width)
+        self.secants = Secants(self.least_misplacement * self.layout.width)
         self.state, self.shape = self.solver.renewed(other), None
         self.end_sensitivity, self.meshes = None, 0
 
@@ -166,7 +169,7 @@ class EndSearch:
             misplacement=self.misplacement,
             end_error=self.end_error,
             end_sensitivity=self.end_sensitivity,
-            jacobian=self.ends.jacobian,
+            jacobian=self.secants.jacobian,
         )
 
 

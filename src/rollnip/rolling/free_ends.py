@@ -27,9 +27,9 @@ from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.neglected_slip import negligible_slip
 from rollnip.rolling.placing import Placing
-from rollnip.rolling.search import SearchState
 from rollnip.rolling.secondary import secondary_figures
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.zone_search import SearchState
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone

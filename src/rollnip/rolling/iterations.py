@@ -30,8 +30,6 @@ from rollnip.rolling.mesh_solution import (
 from rollnip.rolling.neglected_slip import tolerable_slip
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
-Method = GivenStates | Safeguarded
-
 
 def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
     """Return influence functions that hold the second order of the last solution, if any.
@@ -65,7 +63,7 @@ def solve_on_mesh(
     model: Model,
     mesh: Mesh,
     start: tuple[States, SecondOrder, int],
-    method: Method,
+    method: GivenStates | Safeguarded,
     settled_change: float,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> MeshSolution:

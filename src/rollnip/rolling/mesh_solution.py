@@ -212,6 +212,11 @@ class MeshSolution:
         return self.mesh.acting(self.state.shear)
 
     @property
+    def over_bound(self) -> Array:
+        """Acting shear beyond the traction bound at ``x``, negative within it, (M-1,) [MPa]."""
+        return np.abs(self.shear) - self.problem.friction * np.maximum(self.pressure, 0.0)
+
+    @property
     def weights(self) -> Array:
         """Load of a unit traction at each of ``x``, (M-1,) [mm]."""
         return load_weights(self.nodes)

@@ -3,7 +3,7 @@
 The tractions at the first nodes beside each end propose where it should be
 (`contact.Layout.with_proposed_ends`), and Broyden's method moves it there (`contact.secants`). Once
 the ends are nearly right, a solution shows whether its zones are the right ones
-(`search.ZoneSearch`).
+(`zone_search.ZoneSearch`).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch
 from rollnip.rolling.lengths import thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
-from rollnip.rolling.search import SearchState, ZoneSearch
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.zone_search import SearchState, ZoneSearch
 from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
@@ -86,11 +86,11 @@ class Placing:
                 and search.misplacement < NEAR_ENOUGH
                 and search.second_order_settled
             )
-            others = self.search.other_zones(
+            others = self.zone_search.other_zones(
                 search.latest,
                 search.layout,
                 search.proposed,
-                search.ends.vanishing(search.layout, search.proposed),
+                search.vanishing,
                 is_placed=is_placed,
                 is_near=is_near,
             )
@@ -99,7 +99,7 @@ class Placing:
                 search.change_zones(other)
             elif not is_placed:
                 search.move_ends()
-            elif self.search.has_tension(search.latest):
+            elif self.zone_search.has_tension(search.latest):
                 break
             else:
                 return search.result()
@@ -111,7 +111,7 @@ class Placing:
         return ZoneSolver(self.nip, self.model, self.kernels)
 
     @cached_property
-    def search(self) -> ZoneSearch:
+    def zone_search(self) -> ZoneSearch:
         """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model)
 
@@ -127,7 +127,7 @@ class Placing:
         if not (proposed.is_proper and distance <= self.model.tolerance):
             return False
         is_placed = self._are_ends_placed(layout, search.misplacement, zones_known=True)
-        wanted = self.search.changed_states(search.latest, layout, checks_contact=is_placed)
+        wanted = self.zone_search.changed_states(search.latest, layout, checks_contact=is_placed)
         return wanted is None
 
     def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
@@ -187,9 +187,9 @@ class Placing:
         A stick zone that is too long by delta has a shear beyond the bound in its last element;
         under a stiff skin, where the slightest stretch causes shear, far beyond it.
         """
-        over = np.abs(latest.shear) - self.nip.friction * np.maximum(latest.pressure, 0.0)
         least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
-        cells = set(latest.mesh.inner.searchsorted(latest.x[over > least]).tolist())
+        exceeds = latest.over_bound > least
+        cells = set(latest.mesh.inner.searchsorted(latest.x[exceeds]).tolist())
         return any(not cells.isdisjoint((end, end + 1)) for end in latest.mesh.fine.inner_breaks)
 
     def _most_meshes(self, layout: Layout) -> int:

@@ -28,8 +28,8 @@ from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
 from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
-from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import Mesh, PairKernels
+from rollnip.rolling.zone_search import SearchState
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
 # pressure.

@@ -130,19 +130,11 @@ class ZoneSearch:
             opened = self.with_gap_at_tension(latest, layout)
             if opened is not None:
                 yield SearchState(opened, latest)
-        overlooked = self.overlooked(latest, proposed)
-        if overlooked is not None:
-            yield overlooked
-
-    def overlooked(self, latest: MeshSolution, edges: Layout) -> SearchState | None:
-        """Return the zones between given edges that nodes call for, however little.
-
-        Return None where they change the creepage by no more than slip that is left out may.
-        """
         wanted, change = overlooked_states(latest)
-        if change <= negligible_change(self.nip, self.model, latest.figures):
-            return None
-        return self.between_edges(latest, wanted, edges)
+        if not change <= negligible_change(self.nip, self.model, latest.figures):
+            found = self.between_edges(latest, wanted, proposed)
+            if found is not None:
+                yield found
 
     def changed_states(
         self, latest: MeshSolution, layout: Layout, *, checks_contact: bool

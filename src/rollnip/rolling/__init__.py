@@ -6,8 +6,8 @@
    the estimated contact (`refinement`; solvers in `rollnip.contact`).
 3. The ends of these zones are then a free boundary: a mesh has nodes at them, the tractions beside
    each end tell where it should be, and the mesh follows. Once the ends are placed, the solution
-   shows whether there are other zones (`placing`, `end_search`, `zone_search`). On each mesh, terms that
-   depend on the solution are found by fixed-point iteration (`iterations`).
+   shows whether there are other zones (`placing`, `end_search`, `zone_search`). On each mesh, terms
+   that depend on the solution are found by fixed-point iteration (`iterations`).
 4. Meshes are refined until the estimated discretisation errors are below the tolerance
    (`free_ends`, `estimates`). If that fails, zones are found again from more nodes (`refinement`).
 5. The contact conditions are evaluated between the nodes as well (`check`). Their residual and the

@@ -27,13 +27,13 @@ from rollnip.contact import (
 )
 from rollnip.influence import load_weights
 from rollnip.paper.process.nodes import graded_nodes, states_on
-from rollnip.rolling.assemble import contact_problem, second_order
+from rollnip.rolling.assemble import contact_problem, lagged_terms
 from rollnip.rolling.mesh_solution import Figures, creepage_scale, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh
 
 FINER = 10  # times as many elements
 FEWEST, MOST = 600, 1600  # elements of a reference
-STILL = 1e-7  # last change of the second-order terms, relative; what is left is a tenth of it
+STILL = 1e-7  # last change of the lagged terms, relative; what is left is a tenth of it
 STILL_WHILE_PLACING = 1e-5
 NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Systems of a thousand unknowns with condition numbers to 1e6 lose that much to rounding.
@@ -144,15 +144,15 @@ def _settled_on(solution, mesh, before, still):
         pressure=np.interp(mesh.inner, x, old.pressure, left=0.0, right=0.0),
         shear=np.interp(mesh.inner, x, old.shear, left=0.0, right=0.0),
     )
-    second = second_order(nip, geometry, mesh, state)
+    lagged = lagged_terms(nip, geometry, mesh, state)
     for _ in range(60):
-        problem = contact_problem(nip, mesh, second)
+        problem = contact_problem(nip, mesh, lagged)
         state = _solved(problem, states)
         if not state.settled:
             return None
-        updated = second_order(nip, geometry, mesh, state)
-        change = _change(nip, mesh, state, updated, second)
-        second, states = updated, state.states
+        updated = lagged_terms(nip, geometry, mesh, state)
+        change = _change(nip, mesh, state, updated, lagged)
+        lagged, states = updated, state.states
         if change < still:
             break
     else:
@@ -160,7 +160,7 @@ def _settled_on(solution, mesh, before, still):
     if states[0] != State.FREE or states[-1] != State.FREE:
         return None
     zones = contact_zones(problem.x, state, nip.friction)
-    return Fine(mesh, state, zones, _figures(problem, state, zones, second.lean))
+    return Fine(mesh, state, zones, _figures(problem, state, zones, lagged.lean))
 
 
 def _solved(problem, states):

@@ -9,7 +9,7 @@ import rollnip as rn
 from rollnip.contact import State, creep, gap, left_out_of_creep
 from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
-from rollnip.rolling.assemble import contact_problem, first_guess, second_order
+from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
 from rollnip.rolling.surfaces import Mesh
 
 FOAM = rn.Elastic(modulus=0.5, poisson=0.1)
@@ -26,7 +26,7 @@ def pair(upper, lower, geometry="linear", count=30):
     )
     kernels = pair_kernels(nip, geometry)
     mesh = Mesh.on(graded_nodes(np.array([-2.0, 2.0]), count), kernels)
-    return nip, mesh, contact_problem(nip, mesh, first_guess(nip, mesh))
+    return nip, mesh, contact_problem(nip, mesh, initial_terms(nip, mesh))
 
 
 def test_clearance_is_the_parabola():
@@ -124,7 +124,7 @@ def test_second_order_terms_stand_still(solved, name):
     """Evaluated once more on the final solution they are what it was solved with."""
     solution = solved(name)
     final = solution.final
-    again = second_order(solution.nip, "curved", final.mesh, final.state)
+    again = lagged_terms(solution.nip, "curved", final.mesh, final.state)
     problem = contact_problem(solution.nip, final.mesh, again)
     change = problem.creep_offset - final.problem.creep_offset
     change += solution.creepage * (problem.creep_length - final.problem.creep_length)
@@ -146,19 +146,19 @@ def test_torque_asks_for_the_traction_that_gives_it(geometry, cases):
 @pytest.mark.parametrize("name", ["clearance", "creep_offset", "creep_length"])
 def test_a_change_that_is_no_number_is_never_small(name):
     nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
-    zero = first_guess(nip, mesh)
+    zero = initial_terms(nip, mesh)
     broken = replace(zero, **{name: np.full(mesh.inner.size, np.nan)})
     assert np.isnan(broken.change(zero, 0.1, mesh.dx, (1.0, 1.0, 1.0)))
 
 
-def test_first_guess_has_no_second_order_terms():
+def test_initial_terms_are_zero():
     nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
-    guess = first_guess(nip, mesh)
-    assert guess.traction is None
-    assert not np.any(guess.clearance)
-    assert not np.any(guess.creep_offset)
+    terms = initial_terms(nip, mesh)
+    assert terms.traction is None
+    assert not np.any(terms.clearance)
+    assert not np.any(terms.creep_offset)
     idler = replace(nip, tangential=rn.Torque(0.0))
-    assert first_guess(idler, mesh).traction == 0.0
+    assert initial_terms(idler, mesh).traction == 0.0
 
 
 def test_states_of_a_solution_cover_its_pressure(case, solved):

@@ -14,7 +14,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.contact import Safeguarded, contact_intervals, contact_zones
-from rollnip.rolling.assemble import contact_problem, first_guess
+from rollnip.rolling.assemble import contact_problem, initial_terms
 from rollnip.rolling.surfaces import Mesh, pair_kernels
 
 
@@ -67,7 +67,7 @@ def test_pieces_are_those_of_a_fine_mesh_whose_nodes_find_their_states_themselve
     nip = film_on_foam()
     found = rn.solve(nip, rn.Model(geometry="linear"))
     mesh = Mesh.on(np.linspace(-0.3, 0.8, 1101), pair_kernels(nip, "linear"))
-    problem = contact_problem(nip, mesh, first_guess(nip, mesh))
+    problem = contact_problem(nip, mesh, initial_terms(nip, mesh))
     start = np.zeros(problem.x.size, dtype=np.int8)
     start[np.abs(problem.x - found.contact[0][0] - 0.05) < 0.02] = 1
     start[np.abs(problem.x - found.contact[1][1] + 0.05) < 0.02] = 1

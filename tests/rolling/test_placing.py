@@ -84,7 +84,7 @@ def test_nodes_know_the_traction_of_a_torque(cases):
     torque = rn.solve(driven, rn.Model(geometry="curved")).torque_lower
     nip = replace(driven, tangential=rn.Torque(torque))
     found = located(nip, "curved")
-    assert found.second.traction == pytest.approx(driven.tangential.traction, rel=0.05)
+    assert found.lagged.traction == pytest.approx(driven.tangential.traction, rel=0.05)
     layout = Layout.of(found.zones, nip.friction)
     assert list(layout.states) == states_of(rn.solve(nip, rn.Model(geometry="curved")))
 

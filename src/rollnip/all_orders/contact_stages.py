@@ -20,7 +20,7 @@ from rollnip.all_orders.corrections import cut_factor_at
 from rollnip.contact import NEAR_ENOUGH, Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import second_order
+from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin
@@ -261,7 +261,7 @@ def _at_same_stage(
             half_width = 0.5 * latest.figures.nip_width
             *_, found = by_nodes(nip, model, kernels, half_width, COARSE_SIZES)
             return found
-        start = latest.state.states, latest.second, latest.steps
+        start = latest.state.states, latest.lagged, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, NEGLIGIBLE)
     else:
         found = _with_moved_ends(nip, model, kernels, latest, stage)
@@ -279,8 +279,8 @@ def _with_moved_ends(
     layout, found = Layout.of(latest.zones, nip.friction), None
     if layout is not None:
         is_coarse = stage is ContactStage.COARSE
-        second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), misplacement=_COARSE_TOLERANCE)
+        lagged = lagged_terms(nip, model.geometry, latest.mesh, latest.state)
+        search = SearchState(layout, replace(latest, lagged=lagged), misplacement=_COARSE_TOLERANCE)
         is_crowded = not grips_skin(nip) and min(map(min, latest.mesh.fine.crowding)) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = Placing(nip, model, kernels).solve(

@@ -25,7 +25,7 @@ from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.assemble import second_order
+from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
@@ -240,5 +240,5 @@ def _change_of_terms(nip: Nip, model: Model, kernels: PairKernels, latest: MeshS
     Relative to its first-order terms.
     """
     mesh = _holding(latest, kernels).mesh
-    own = second_order(nip, model.geometry, mesh, latest.state)
-    return change_of(own, latest.second, mesh, nip, latest.state)
+    own = lagged_terms(nip, model.geometry, mesh, latest.state)
+    return change_of(own, latest.lagged, mesh, nip, latest.state)

@@ -22,7 +22,7 @@ from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, S
 class GivenStates:
     """Solver of a contact problem whose states are given.
 
-    It reuses the last factorised system while only the second-order terms of a problem change.
+    It reuses the last factorised system while only the lagged terms of a problem change.
     """
 
     _last: LinearSystem | None = None

@@ -1,4 +1,4 @@
-"""Assembly of the discrete contact problem of a nip on a mesh, with its second-order terms."""
+"""Assembly of the discrete contact problem of a nip on a mesh, with the terms that lag behind."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.kinematics import stretch_parts, surface_depths
 from rollnip.rolling.surface_work import loss_inside, slip_intervals, transmitted
-from rollnip.rolling.surfaces import Mesh, has_no_second_order
+from rollnip.rolling.surfaces import Mesh, has_no_lagged_terms
 
 
 @dataclass(frozen=True, slots=True)
-class SecondOrder:
-    """Terms of the contact conditions that depend on the solution, from the last iterate.
+class LaggedTerms:
+    """Terms of the contact conditions that depend on the solution, taken from the last iterate.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class SecondOrder:
     traction: float | None
     lean: float = 0.0
 
-    def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
+    def carried(self, old: Mesh, new: Mesh) -> LaggedTerms:
         """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
         matrices = carry(old.fine, new.fine)
         rates = self.creep_length / old.dx, self.creep_offset / old.dx
@@ -56,10 +56,10 @@ class SecondOrder:
             clearance = np.interp(new.inner, old.inner, self.clearance)
             middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
             length, offset = (np.interp(places, middles, rate) for rate in rates)
-        return SecondOrder(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
+        return LaggedTerms(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
 
     def change(
-        self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]
+        self, before: LaggedTerms, creepage: float, dx: Array, scales: tuple[float, float, float]
     ) -> float:
         """Return the largest relative change from ``before`` of gap, creep per length and traction.
 
@@ -85,36 +85,36 @@ class SecondOrder:
         return largest(*changes)
 
 
-def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:
+def contact_problem(nip: Nip, mesh: Mesh, lagged: LaggedTerms) -> ContactProblem:
     """Return the contact problem of theory sections 5 and 6, linear in the tractions."""
     tangential = nip.tangential
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + second.clearance,
+        clearance=0.5 * nip.curvature * mesh.inner**2 + lagged.clearance,
         influence=mesh.influence,
-        creep_length=mesh.dx + second.creep_length,
-        creep_offset=second.creep_offset,
+        creep_length=mesh.dx + lagged.creep_length,
+        creep_offset=lagged.creep_offset,
         friction=nip.friction,
         control=Control(
-            load=nip.normal.load + second.lean if isinstance(nip.normal, LineLoad) else None,
+            load=nip.normal.load + lagged.lean if isinstance(nip.normal, LineLoad) else None,
             approach=nip.normal.approach if isinstance(nip.normal, Approach) else None,
-            traction=tangential.traction if isinstance(tangential, Traction) else second.traction,
+            traction=tangential.traction if isinstance(tangential, Traction) else lagged.traction,
             creepage=tangential.creepage if isinstance(tangential, Creepage) else None,
         ),
     )
 
 
-def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
-    """Return zero second-order terms, and zero traction where a torque is prescribed."""
+def initial_terms(nip: Nip, mesh: Mesh) -> LaggedTerms:
+    """Return lagged terms of zero, the traction too where a torque is prescribed."""
     zero = np.zeros(mesh.inner.size)
-    return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
+    return LaggedTerms(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
 
 
-def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
-    """Return the second-order terms that follow from a solution on a mesh."""
-    if has_no_second_order(nip, geometry):
-        return first_guess(nip, mesh)
+def lagged_terms(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> LaggedTerms:
+    """Return the lagged terms that follow from a solution on a mesh (theory section 6)."""
+    if has_no_lagged_terms(nip, geometry):
+        return initial_terms(nip, mesh)
     u_linear = mesh.linear_displacements(state)
     u = mesh.with_second(u_linear, state)
     clearance = length = offset = np.zeros(mesh.inner.size)
@@ -131,13 +131,13 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
         lean = _lean(nip, mesh, state, u)
     if isinstance(nip.tangential, Torque):
         traction = _traction_for_torque(nip, geometry, mesh, state, u)
-    return SecondOrder(clearance, length, offset, traction, lean)
+    return LaggedTerms(clearance, length, offset, traction, lean)
 
 
 def _stretch_terms(
     nip: Nip, geometry: Geometry, mesh: Mesh, u_linear: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
-    """Return ``creep_length`` and ``creep_offset`` of `SecondOrder` due to stretch [mm].
+    """Return ``creep_length`` and ``creep_offset`` of `LaggedTerms` due to stretch [mm].
 
     The creep is the integral of (1 + xi/2) stretch_u - (1 - xi/2) stretch_l over an interval. The
     first term is the factor of xi minus the length of the interval; the second is the part
@@ -164,7 +164,7 @@ def _traction_for_torque(
 ) -> float:
     """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed [N/mm].
 
-    It is nan where the second-order terms have diverged; such a solution is not verified.
+    It is nan where the lagged terms have diverged; such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
     zones = contact_zones(mesh.inner, state, nip.friction)

@@ -13,7 +13,7 @@ _SAFETY_FACTOR = 1.5  # on a second-order estimate from two meshes; first order 
 NEGLIGIBLE = 0.1
 """Share of the tolerance that counts as negligible.
 
-Such changes of the second-order terms end an iteration, which reduces their remaining error at
+Such changes of the lagged terms end an iteration, which reduces their remaining error at
 least tenfold.
 """
 ROUNDING = float(np.sqrt(np.finfo(float).eps))

@@ -1,4 +1,4 @@
-"""The solution on one mesh: fixed-point iteration of the second-order terms, and the residual."""
+"""The solution on one mesh: fixed-point iteration of the lagged terms, and the residual."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rollnip.contact import (
 from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
+from rollnip.rolling.assemble import LaggedTerms, contact_problem, lagged_terms
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import shortest_zone
@@ -28,7 +28,7 @@ from rollnip.rolling.mesh_solution import (
     scale_of_creepage,
 )
 from rollnip.rolling.neglected_slip import tolerable_slip
-from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
+from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_lagged_terms
 
 
 def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
@@ -46,52 +46,52 @@ def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> P
 
 def own_second_order(
     nip: Nip, geometry: Geometry, kernels: PairKernels, latest: MeshSolution
-) -> tuple[Mesh, SecondOrder, float]:
+) -> tuple[Mesh, LaggedTerms, float]:
     """Return the mesh of a solution that holds the second order of its own tractions.
 
-    With it come the second-order terms that follow, and their change from those of the solution,
+    With it come the lagged terms that follow, and their change from those of the solution,
     see `change_of`.
     """
     own = replace(kernels, held=latest.mesh.second_fields(latest.state))
     mesh = latest.mesh.holding(own)
-    second = second_order(nip, geometry, mesh, latest.state)
-    return mesh, second, change_of(second, latest.second, mesh, nip, latest.state)
+    lagged = lagged_terms(nip, geometry, mesh, latest.state)
+    return mesh, lagged, change_of(lagged, latest.lagged, mesh, nip, latest.state)
 
 
 def solve_on_mesh(
     nip: Nip,
     model: Model,
     mesh: Mesh,
-    start: tuple[States, SecondOrder, int],
+    start: tuple[States, LaggedTerms, int],
     method: GivenStates | Safeguarded,
     settled_change: float,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> MeshSolution:
-    """Return the solution on one mesh, by fixed-point iteration of the second-order terms.
+    """Return the solution on one mesh, by fixed-point iteration of the lagged terms.
 
     Parameters
     ----------
-    start : states, second-order terms, and the number of linear systems solved before.
-    method : solver for given second-order terms.
-    settled_change : change of the second-order terms at which to stop, over the tolerance.
+    start : states, lagged terms, and the number of linear systems solved before.
+    method : solver for given lagged terms.
+    settled_change : change of the lagged terms at which to stop, over the tolerance.
     zones : of the solution; None: derive them from it.
     """
-    states, second, steps = start
+    states, lagged, steps = start
     change = 0.0
     for _ in range(MOST_ITERATIONS):
-        problem = contact_problem(nip, mesh, second)
+        problem = contact_problem(nip, mesh, lagged)
         state = method.solve(problem, states)
         steps += state.steps
-        if not state.settled or has_no_second_order(nip, model.geometry):
+        if not state.settled or has_no_lagged_terms(nip, model.geometry):
             break
-        updated = second_order(nip, model.geometry, mesh, state)
-        change = change_of(updated, second, mesh, nip, state)
-        second, states = updated, state.states
+        updated = lagged_terms(nip, model.geometry, mesh, state)
+        change = change_of(updated, lagged, mesh, nip, state)
+        lagged, states = updated, state.states
         if not change > settled_change * model.tolerance:
             break
     if zones is None:
         zones = contact_zones(problem.x, state, nip.friction)
-    figures = figures_of(mesh, state, zones, second.lean)
+    figures = figures_of(mesh, state, zones, lagged.lean)
     settled = (
         state.settled and change <= settled_change * model.tolerance and figures.peak_pressure > 0.0
     )
@@ -99,7 +99,7 @@ def solve_on_mesh(
         mesh=mesh,
         problem=problem,
         state=state,
-        second=second,
+        lagged=lagged,
         zones=zones,
         figures=figures,
         error=UNKNOWN_ERROR,
@@ -110,9 +110,9 @@ def solve_on_mesh(
 
 
 def change_of(
-    new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
+    new: LaggedTerms, old: LaggedTerms, mesh: Mesh, nip: Nip, state: ContactState
 ) -> float:
-    """Return the largest change of the second-order terms, relative to the first-order terms."""
+    """Return the largest change of the lagged terms, relative to the first-order terms."""
     half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
     approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
@@ -144,7 +144,7 @@ def with_residual(
     within its tolerance.
 
     Where the second order follows the tractions, the mesh of the result holds that of its own
-    tractions. The change of the second-order terms that this makes counts for `geometry_change`.
+    tractions. The change of the lagged terms that this makes counts for `geometry_change`.
     """
     if not kernels.is_fixed:
         mesh, _, change = own_second_order(nip, model.geometry, kernels, latest)

@@ -22,7 +22,7 @@ from rollnip.contact.problem import Array
 from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.surfaces import Mesh
@@ -120,14 +120,14 @@ class MeshSolution:
 
     Attributes
     ----------
-    mesh, problem, state, second : the mesh, the discrete problem, its solution, and the
-        second-order terms that follow from the solution.
+    mesh, problem, state, lagged : the mesh, the discrete problem, its solution, and the
+        lagged terms that follow from the solution.
     zones : contact zones from trailing to leading edge.
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
     steps : linear systems solved on all meshes so far.
-    settled : whether the iteration of states and second-order terms converged.
-    geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
+    settled : whether the iteration of states and lagged terms converged.
+    geometry_change : last change of the lagged terms (e(x) of "corrected", the stretch of
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, computed afresh; inf where not
         computed.
@@ -140,7 +140,7 @@ class MeshSolution:
     mesh: Mesh
     problem: ContactProblem
     state: ContactState
-    second: SecondOrder
+    lagged: LaggedTerms
     zones: tuple[ContactZone, ...]
     figures: Figures
     error: Figures
@@ -299,6 +299,6 @@ def has_grip(latest: MeshSolution) -> bool:
     """Return whether friction can carry the prescribed traction: |T| < mu F."""
     wanted = latest.problem.control.traction
     limit = latest.problem.friction * latest.figures.load
-    if not latest.geometry_change < 1.0:  # diverged second-order terms say nothing of friction
+    if not latest.geometry_change < 1.0:  # diverged lagged terms say nothing of friction
         return True
     return wanted is None or abs(wanted) < max(limit, 1e-9 * latest.figures.load)

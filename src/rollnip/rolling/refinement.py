@@ -11,7 +11,7 @@ import numpy as np
 from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import first_guess
+from rollnip.rolling.assemble import initial_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
@@ -160,10 +160,10 @@ def _solve_by_nodes(
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
     mesh = solver.around(around, count, holding_second_order(solver.kernels, before))
-    second, steps = first_guess(solver.nip, mesh), 0
+    lagged, steps = initial_terms(solver.nip, mesh), 0
     if before is not None:
-        second, steps = before.second.carried(before.mesh, mesh), before.steps
-    start = around.states_on(mesh.inner), second, steps
+        lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps
+    start = around.states_on(mesh.inner), lagged, steps
     return solve_on_mesh(solver.nip, solver.model, mesh, start, BY_NODES, NEGLIGIBLE)
 
 
@@ -172,7 +172,7 @@ def _zones_are_known(solver: ZoneSolver, latest: MeshSolution, before: MeshSolut
 
     The first mesh of a size is dense at the edges only. It takes a second one to be dense at
     transitions, or in boundary layers shorter than the elements. If each mesh holds the
-    second-order terms of the one before, no end may have moved by more than an element.
+    second order of the one before, no end may have moved by more than an element.
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
     if solver.kernels.is_fixed:

@@ -106,11 +106,11 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
     """Return the influence functions of both rollers, tabulated on one window or from a cache."""
     cache = KernelCache() if cache is None else cache
     make = partial(_pair_kernels, nip, geometry, cache)
-    kind = geometry, has_no_second_order(nip, geometry), nip.friction > 0.0
+    kind = geometry, has_no_lagged_terms(nip, geometry), nip.friction > 0.0
     return cache.pair((nip.upper, nip.lower), nip.speed, kind, make)
 
 
-def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
+def has_no_lagged_terms(nip: Nip, geometry: Geometry) -> bool:
     """Return whether no term of the contact conditions depends on the solution."""
     if isinstance(nip.tangential, Torque):
         return False
@@ -132,7 +132,7 @@ def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKerne
         normal = parts[0].zz + parts[1].zz
     pressed = Ellipses.under(normal, min(nip.upper.radius, nip.lower.radius))
     joint = None
-    if has_no_second_order(nip, geometry):
+    if has_no_lagged_terms(nip, geometry):
         joint = joint_kernel(upper, lower, has_friction=nip.friction > 0.0)
     return PairKernels(upper, lower, together, pressed, hoops=hoops, joint=joint)
 

@@ -23,7 +23,7 @@ from rollnip.contact.features import runs
 from rollnip.contact.problem import Array
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import second_order
+from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
@@ -45,7 +45,7 @@ class SearchState:
     ----------
     layout : the zones to solve with next.
     solution : the last one.
-    change : of the second-order terms when the second order of "second" was last evaluated, over
+    change : of the lagged terms when the second order of "second" was last evaluated, over
         the tolerance.
     to_come : sum of the changes that further evaluations would make, over the tolerance.
     misplacement : largest error of the ends of zones, over the width of the contact.
@@ -198,9 +198,9 @@ class ZoneSearch:
         )
         for slip in negligible_slip(self.nip, self.model, latest):
             layout = slip.left_out_of(layout, keeps_stick=_keeps_stick(latest))
-        second = second_order(self.nip, self.model.geometry, latest.mesh, found)
+        lagged = lagged_terms(self.nip, self.model.geometry, latest.mesh, found)
         steps = latest.steps + found.steps
-        return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
+        return SearchState(layout, replace(latest, state=found, lagged=lagged, steps=steps))
 
     def slipping_at_edges(self, latest: MeshSolution, layout: Layout) -> Layout | None:
         """Return the layout with slip zones added at edges that the solution sticks up to.

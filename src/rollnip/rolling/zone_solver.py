@@ -105,7 +105,7 @@ class ZoneSolver:
 
     @cached_property
     def settled_change(self) -> float:
-        """Change of the second-order terms at which iterations stop, over the tolerance.
+        """Change of the lagged terms at which iterations stop, over the tolerance.
 
         Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
         as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
@@ -124,18 +124,18 @@ class ZoneSolver:
         """
         if self.kernels.is_fixed or state.second_order_settled:
             return state
-        mesh, second, change = own_second_order(
+        mesh, lagged, change = own_second_order(
             self.nip, self.model.geometry, self.kernels, state.solution
         )
         change /= self.model.tolerance
-        renewed = replace(state.solution, mesh=mesh, second=second)
+        renewed = replace(state.solution, mesh=mesh, lagged=lagged)
         return SearchState(state.layout, renewed, change, to_come_after(change, state.change))
 
     def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
         """Return the solution on one mesh, and the zones with the ends that it proposes."""
         layout, before = state.layout, state.solution
         mesh = self.at_ends(layout, shape, before.mesh.kernels)
-        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
+        start = layout.states_on(mesh.inner), before.lagged.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
         )

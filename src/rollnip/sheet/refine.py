@@ -13,7 +13,7 @@ from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, ContactState
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.rolling import MeshSolution, PairKernels
-from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
@@ -102,7 +102,7 @@ class Refined(Generic[T]):
             mesh=mesh,
             problem=problem,
             state=state,
-            second=SecondOrder(
+            lagged=LaggedTerms(
                 clearance, np.zeros(mesh.inner.size), offset, iterate.lagged.traction
             ),
             zones=iterate.zones.upper.zones,

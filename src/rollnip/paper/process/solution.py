@@ -15,13 +15,13 @@ from rollnip.nip import Nip
 from rollnip.paper.process.algorithms import Alternation
 from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
-from rollnip.rolling.assemble import contact_problem, first_guess, second_order
+from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
 from rollnip.rolling.iterations import change_of
 from rollnip.rolling.surfaces import Mesh
 
 _MESHES = 4  # the last three graded to the zones of the one before
 _MOST_ITERATIONS = 40
-_STILL = 1e-6  # last change of the second-order terms, relative
+_STILL = 1e-6  # last change of the lagged terms, relative
 _ROOM = 1.3  # of the guessed half-width: contact on the first mesh ends somewhere within
 
 
@@ -40,7 +40,7 @@ class ProcessSolution:
     x : (n,) nodes [mm].
     pressure, shear : (n,) [MPa]; shear on the upper roller along +x.
     systems : linear systems solved on the last mesh.
-    converged : whether the alternation of NORM and TANG, and the second-order terms, settled.
+    converged : whether the alternation of NORM and TANG, and the lagged terms, settled.
     """
 
     approach: float
@@ -101,14 +101,14 @@ def _solved_on(
     nip: Nip, geometry: Geometry, mesh: Mesh, zones: tuple[ContactZone, ...]
 ) -> tuple[ContactState, bool]:
     """Alternate on one mesh until the second-order terms settle, if they do."""
-    second, states = first_guess(nip, mesh), states_on(mesh.inner, zones)
+    lagged, states = initial_terms(nip, mesh), states_on(mesh.inner, zones)
     if not states.any():
         states[np.argmin(np.abs(mesh.inner))] = State.STICK
     for _ in range(_MOST_ITERATIONS):
-        state = Alternation().solve(contact_problem(nip, mesh, second), states)
-        updated = second_order(nip, geometry, mesh, state)
-        change = change_of(updated, second, mesh, nip, state)
-        second = updated
+        state = Alternation().solve(contact_problem(nip, mesh, lagged), states)
+        updated = lagged_terms(nip, geometry, mesh, state)
+        change = change_of(updated, lagged, mesh, nip, state)
+        lagged = updated
         if not state.settled or not change > _STILL:
             break
     return state, state.settled and change <= _STILL

@@ -16,7 +16,7 @@ from rollnip.model import FINITE
 from rollnip.nip import Creepage
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, MeshSolution, stretch_excess
-from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
@@ -249,7 +249,7 @@ def lower_mesh_solution(refined: Refined[PlateIterate], upper: MeshSolution) -> 
         mesh=mesh,
         problem=_as_problem(iterate, 1),
         state=iterate.state.side(1, creepage=iterate.state.creepage),
-        second=SecondOrder(
+        lagged=LaggedTerms(
             lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
         ),
         zones=iterate.zones.lower.zones,

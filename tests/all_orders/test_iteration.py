@@ -35,7 +35,7 @@ def counts(monkeypatch):
     monkeypatch.setattr(FiniteResponse, "correction", evaluation)
 
     # Meshes with nodes at the ends of zones, not those on which zones are found.
-    monkeypatch.setattr(ZoneSolver, "at_ends", counted("meshes", ZoneSolver.at_ends))
+    monkeypatch.setattr(ZoneSolver, "mesh_at_ends", counted("meshes", ZoneSolver.mesh_at_ends))
     return found
 
 

@@ -23,9 +23,9 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
 from rollnip.rolling.iterations import solve_on_mesh
+from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (

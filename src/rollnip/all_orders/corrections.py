@@ -13,9 +13,9 @@ from rollnip.influence import SurfaceKernels
 from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.displacements import Field, SecondFields, Stretch
 from rollnip.rolling.kinematics import stretch_excess
+from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import PairKernels

@@ -28,9 +28,9 @@ from rollnip.rollers import Roller
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Stretch
 from rollnip.rolling.iterations import change_of, with_residual
+from rollnip.rolling.lengths import grips_skin, skin_thickness
 from rollnip.rolling.mesh_solution import FailureCause, IterationFailure, MeshSolution
 from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.surfaces import PairKernels

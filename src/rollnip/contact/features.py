@@ -56,9 +56,9 @@ def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, floa
 def with_stick_between(zones: tuple[ContactZone, ...], friction: float) -> tuple[ContactZone, ...]:
     """Return the zones with stick between adjoining slip zones of opposite sign.
 
-    On either side the stick takes half of the shorter slip zone or, as its length falls with the
-    friction, the cube root of the friction of it if that is less. So it is rather too long: where
-    it is much too short, tractions do not tell where its ends belong (decision 103).
+    The stick takes a share of the shorter slip zone on either side: half or, as its length falls
+    with the friction, the cube root of the friction if that is less. It is rather too long, for
+    where it is much too short, tractions do not tell where its ends belong (decision 103).
     """
     out = list(zones[:1])
     for zone in zones[1:]:

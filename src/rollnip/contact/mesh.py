@@ -274,7 +274,7 @@ def with_means(values: NDArray[Number], means: NDArray[Number]) -> NDArray[Numbe
 def cubic_matrix(t: Array, count: int) -> Array:
     """Return the weights of values at 0 ... count - 1 in their cubics at ``t``, (*t, count).
 
-    Each cubic (Lagrange) is that of the nearest four, two on either side where there are.
+    Each cubic (Lagrange) goes through the nearest four, two on either side where there are as many.
     """
     first = np.clip(np.floor(t).astype(int) - 1, 0, count - 4)
     s = t - first
@@ -288,7 +288,7 @@ def cubic_matrix(t: Array, count: int) -> Array:
 
 
 def uncrowded(zones: int) -> Crowding:
-    """Return the crowding of cosine nodes."""
+    """Return the crowding of cosine nodes, which do not crowd."""
     return ((1.0, 1.0),) * zones
 
 

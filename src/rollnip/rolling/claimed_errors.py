@@ -16,9 +16,9 @@ from rollnip._largest import largest
 from rollnip.contact import contact_intervals
 from rollnip.contact.coupled import solve_states
 from rollnip.finite import error_of_long_columns
-from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rolling.lengths import grips_skin, skin_thickness
 from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
 from rollnip.rolling.power_balance import Powers, rates_of
 from rollnip.rolling.secondary import secondary_figures_of, secondary_sizes
@@ -233,7 +233,7 @@ def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str,
 
 
 def _peaks_at_edge(nip: Nip, final: MeshSolution) -> bool:
-    """Return whether the pressure peak is closer to an edge than a stiff skin is thick.
+    """Return whether the pressure peak is closer to an edge than a skin is thick.
 
     Fields there vary over lengths as short as that thickness.
     """
@@ -254,25 +254,6 @@ def _is_peak_unresolved(final: MeshSolution) -> bool:
         return final.mesh.peaks_at_edge(final.state.pressure)
     carried = np.flatnonzero(final.pressure > 0.0)
     return carried.size > 0 and int(np.argmax(final.pressure)) in (carried[0], carried[-1])
-
-
-def skin_thickness(nip: Nip) -> float:
-    """Return the thickness of the thicker stiff skin, 0 if there is none [mm].
-
-    A stiff skin is a top layer that is stiffer than the layer below it.
-    """
-    tops = [
-        roller.layers[0].thickness
-        for roller in (nip.upper, nip.lower)
-        if len(roller.layers) > 1
-        and roller.layers[0].material.glassy_modulus > roller.layers[1].material.relaxed_modulus
-    ]
-    return max(tops, default=0.0)
-
-
-def grips_skin(nip: Nip) -> bool:
-    """Return whether there is friction on a stiff skin, so that stretch causes large shear."""
-    return nip.friction > 0.0 and has_stiff_skin((nip.upper, nip.lower))
 
 
 def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:

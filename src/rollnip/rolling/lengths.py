@@ -1,10 +1,11 @@
-"""What a nip is like over short distances: boundary layers, short zones, unlike surfaces."""
+"""What a nip is like over short distances: boundary layers, stiff skins, unlike surfaces."""
 
 from __future__ import annotations
 
 from math import inf
 
 from rollnip.compliance import half_space_limit
+from rollnip.influence import has_stiff_skin
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
@@ -42,6 +43,26 @@ def boundary_layer(nip: Nip) -> float:
     of its top layer, over larger ones with the layers below; tractions change between the two.
     """
     return min(_first_interface(nip.upper), _first_interface(nip.lower))
+
+
+def skin_thickness(nip: Nip) -> float:
+    """Return the thickness of the thicker skin, 0 if there is none [mm].
+
+    A skin is a top layer that is stiffer than the layer below it; for a stiff skin see
+    `has_stiff_skin`.
+    """
+    tops = [
+        roller.layers[0].thickness
+        for roller in (nip.upper, nip.lower)
+        if len(roller.layers) > 1
+        and roller.layers[0].material.glassy_modulus > roller.layers[1].material.relaxed_modulus
+    ]
+    return max(tops, default=0.0)
+
+
+def grips_skin(nip: Nip) -> bool:
+    """Return whether there is friction on a stiff skin, so that stretch causes large shear."""
+    return nip.friction > 0.0 and has_stiff_skin((nip.upper, nip.lower))
 
 
 def dundurs(nip: Nip) -> float:

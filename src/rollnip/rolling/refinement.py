@@ -159,7 +159,7 @@ def _solve_by_nodes(
         if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
-    mesh = solver.around(around, count, holding_second_order(solver.kernels, before))
+    mesh = solver.mesh_around(around, count, holding_second_order(solver.kernels, before))
     lagged, steps = initial_terms(solver.nip, mesh), 0
     if before is not None:
         lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps

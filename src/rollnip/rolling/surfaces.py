@@ -39,8 +39,8 @@ class PairKernels:
 
     Attributes
     ----------
-    upper, lower : linear.
-    second_upper, second_lower : of second order; None also where the model neglects it.
+    upper, lower : of the linear displacements.
+    second_upper, second_lower : of those of second order; None also where the model neglects them.
     held : displacements beyond the linear ones, kept fixed whatever the tractions; None: compute
         them from the tractions.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].

@@ -88,7 +88,7 @@ class ZoneSolver:
         shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
         return crowding_of(layout.breaks, np.array(shortest))
 
-    def at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
+    def mesh_at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
         """Return the mesh with nodes at the ends of the zones of a solution."""
         nodes = cosine_nodes(layout.breaks, *shape)
         edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
@@ -96,7 +96,7 @@ class ZoneSolver:
         fine = subdivided(nodes, *shape, self.pieces(layout), edges, exponents)
         return Mesh.on(nodes, kernels, fine)
 
-    def around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
+    def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on roughly known zones, to seek states node by node."""
         shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
         nodes = cosine_nodes(zones.breaks, *shape)
@@ -134,7 +134,7 @@ class ZoneSolver:
     def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
         """Return the solution on one mesh, and the zones with the ends that it proposes."""
         layout, before = state.layout, state.solution
-        mesh = self.at_ends(layout, shape, before.mesh.kernels)
+        mesh = self.mesh_at_ends(layout, shape, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.lagged.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones

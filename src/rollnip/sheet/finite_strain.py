@@ -32,8 +32,8 @@ from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling.lengths import skin_thickness
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_slip_works

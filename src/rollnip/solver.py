@@ -323,7 +323,7 @@ def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, s
         return False, f"{what}; try {simpler}a smaller load or another tolerance."
     if reason := impossible(nip, model.geometry, final):
         return False, reason
-    if not final.is_placed:
+    if not final.has_free_ends:
         return False, (
             "The contact, stick and slip zones were found, but not exactly where they end; try "
             "another load or tolerance."

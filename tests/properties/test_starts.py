@@ -76,7 +76,7 @@ def check_nodes(case):
     fine = finer_by_nodes(nip, model, kernels, rough)
     if not (stands(nip, final) and rough.settled and fine.settled):
         return False
-    assert not fine.is_placed
+    assert not fine.has_free_ends
     for figure, scale in scales(nip, final.figures).items():
         value, before = (getattr(found.figures, figure) for found in (fine, rough))
         open_to_both = abs(value - before) + getattr(final.error, figure)

@@ -176,7 +176,7 @@ def next_contact(
     """
     if convergence.to_come <= _change_for_better_stage(model, latest, stage):
         found, next_stage = _at_better_stage(nip, model, kernels, latest, stage)
-        if found.settled or latest.is_placed or stage is not ContactStage.COARSE:
+        if found.settled or latest.has_free_ends or stage is not ContactStage.COARSE:
             return found, next_stage
     return _at_same_stage(nip, model, kernels, latest, stage, convergence.change), stage
 
@@ -187,7 +187,7 @@ def _change_for_better_stage(model: Model, latest: MeshSolution, stage: ContactS
         return -inf
     if stage is ContactStage.FINE:
         return CONVERGED
-    if not latest.is_placed:
+    if not latest.has_free_ends:
         return NEARLY_CONVERGED
     return NEAR_ENOUGH / model.tolerance
 
@@ -196,9 +196,9 @@ def _at_better_stage(
     nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, stage: ContactStage
 ) -> tuple[MeshSolution, ContactStage]:
     """Solve on the meshes of a better stage, with a correction that has nearly converged."""
-    if latest.is_placed:
+    if latest.has_free_ends:
         found = _refined(nip, model, kernels, latest)
-        return found, ContactStage.REFINED if found.is_placed else ContactStage.FINE
+        return found, ContactStage.REFINED if found.has_free_ends else ContactStage.FINE
     ready = (
         free_ends_from_nodes(nip, model, kernels, latest) if stage is ContactStage.FINE else None
     )
@@ -256,7 +256,7 @@ def _at_same_stage(
     change: float,
 ) -> MeshSolution:
     """Solve at the same stage with the next correction; not ``settled`` where that fails."""
-    if not latest.is_placed:
+    if not latest.has_free_ends:
         if change > NEAR_ENOUGH:
             half_width = 0.5 * latest.figures.nip_width
             *_, found = by_nodes(nip, model, kernels, half_width, COARSE_SIZES)

@@ -196,7 +196,7 @@ def _iterate(
             cause = "contact"
             break
         # Corrections of contacts found node by node say little of those with free ends.
-        goes_on = stage is was or latest.is_placed
+        goes_on = stage is was or latest.has_free_ends
         mixer = mixer if goes_on else AndersonMixer(places_by_the_edges(_edges(latest)))
         latest = found
     if best.found is None:

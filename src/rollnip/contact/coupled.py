@@ -94,7 +94,7 @@ class LinearSystem:
             approach = float(unknowns[-2])
         if creepage is None:
             creepage = float(unknowns[-1]) + 0.0 if problem.friction > 0.0 else np.nan  # not -0
-        return ContactState(self.states, pressure, shear, approach, creepage, 1, True)
+        return ContactState(self.states, pressure, shear, approach, creepage, steps=1, settled=True)
 
     def _unknowns(self, problem: ContactProblem) -> Array:
         right = right_side(problem, self.contact, self.stick)

@@ -92,7 +92,7 @@ def _unsolved(problem: ContactProblem) -> ContactState:
     """Return a placeholder for a failed solution: all nodes free, not settled."""
     zero = np.zeros(problem.x.size)
     states = np.full(problem.x.size, FREE, dtype=np.int8)
-    return ContactState(states, zero, zero, 0.0, np.nan, 0, False)
+    return ContactState(states, zero, zero, 0.0, np.nan, steps=0, settled=False)
 
 
 def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:

@@ -226,13 +226,13 @@ def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str,
         rest = final.cut + final.residual
         left |= {"approach": approach, "load": 2.0 * approach, "creepage": rest, "nip_width": rest}
     shares = {name: max(share, left[name]) for name, share in MODEL_SHARES[geometry].items()}
-    if _peaks_at_edge(nip, final):
+    if _peaks_within_skin_of_edge(nip, final):
         case = "gripped" if geometry == "finite" and grips_skin(nip) else geometry
         shares["peak_pressure"] = max(shares["peak_pressure"], SHARE_OF_EDGE_PEAK[case])
     return shares
 
 
-def _peaks_at_edge(nip: Nip, final: MeshSolution) -> bool:
+def _peaks_within_skin_of_edge(nip: Nip, final: MeshSolution) -> bool:
     """Return whether the pressure peak is closer to an edge than a skin is thick.
 
     Fields there vary over lengths as short as that thickness.
@@ -250,7 +250,7 @@ def _is_peak_unresolved(final: MeshSolution) -> bool:
 
     Then the edge is misplaced, or the peak lies between nodes, so that its height is not known.
     """
-    if final.is_placed:
+    if final.has_free_ends:
         return final.mesh.peaks_at_edge(final.state.pressure)
     carried = np.flatnonzero(final.pressure > 0.0)
     return carried.size > 0 and int(np.argmax(final.pressure)) in (carried[0], carried[-1])

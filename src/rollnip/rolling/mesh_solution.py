@@ -174,7 +174,7 @@ class MeshSolution:
         return tuple(slip for slip in found if slip is not None)
 
     @property
-    def is_placed(self) -> bool:
+    def has_free_ends(self) -> bool:
         """Return whether nodes lie at the ends of its zones, unlike in a search node by node."""
         return bool(self.mesh.fine.elements)
 

@@ -169,7 +169,7 @@ class Mesh:
     influence: Array
     kernels: PairKernels
     held: Displacements | None
-    is_bare: ClassVar[bool] = True
+    is_bare: ClassVar[bool] = True  # whether the rollers touch, without a sheet between them
 
     @classmethod
     def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision | None = None) -> Self:
@@ -255,7 +255,7 @@ class Mesh:
         values = self.fine.values
         if values is not None:
             displacement = values[1:, 1:] @ displacement
-        return pressure_work(self.acting(traction), displacement)
+        return traction_work(self.acting(traction), displacement)
 
     def finer(self, u: Displacements) -> Displacements:
         """Return displacements at nodes[1:] interpolated to the finer nodes[1:]."""
@@ -314,7 +314,7 @@ class Mesh:
         return self.kernels.second_fields(self.fine.nodes, p, q)
 
 
-def pressure_work(traction: Array, displacement: Array) -> float:
+def traction_work(traction: Array, displacement: Array) -> float:
     """Return int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
     return float(interval_means(traction) @ (displacement[1:] - displacement[:-1]))
 

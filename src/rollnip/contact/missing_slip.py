@@ -34,6 +34,7 @@ def slipping_at_edges(
     ends, breaks, states = layout.ends(x), layout.breaks.tolist(), layout.states.tolist()
     edges = np.flatnonzero(layout.is_edge).tolist()
     kappas = exponents or (0j,) * len(edges)
+    # From the last edge on, so that a new zone does not change the numbers of edges still to come.
     for edge, kappa in zip(edges[::-1], kappas[::-1], strict=True):
         leads = layout.leads(edge)
         if layout.states[edge - leads] != STICK:

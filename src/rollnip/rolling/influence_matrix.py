@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import compress
-
 import numpy as np
 
 from rollnip.contact import Subdivision, left_out_of_creep, left_out_of_tractions
@@ -73,7 +71,7 @@ def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
     """Add what the nodal tractions beside the edges of unlike surfaces leave out.
 
     If D z acts, with z = p + i q at one node and D complex, the gap that it makes is the real part
-    of (zz + i xz) D z, and its creep that of the change of (xz - i xx) D z.
+    of (zz + i xz) D z, and its creep the real part of the change of (xz - i xx) D z.
     """
     n, nodes = len(out) // 2, np.array([edge + inwards for edge, _, inwards in _unlike_edges(fine)])
     if not nodes.size:
@@ -87,9 +85,8 @@ def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
 
 def _unlike_edges(fine: Subdivision) -> list[tuple[int, complex, int]]:
     """Return the edges with exponents: index in nodes[1:-1], kappa, and the step inwards."""
-    steps = (1 - 2 * (number % 2) for number in range(len(fine.edges)))
-    edges = zip(fine.edges, fine.exponents, steps, strict=True)
-    return list(compress(edges, fine.exponents))
+    edges = enumerate(zip(fine.edges, fine.exponents, strict=True))
+    return [(edge, kappa, -1 if number % 2 else 1) for number, (edge, kappa) in edges if kappa]
 
 
 def shorter_per_traction(per_traction: Array, hoops: tuple[float, float]) -> Array | None:

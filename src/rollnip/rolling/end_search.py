@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rollnip.contact import Layout, elements_of_zones
+from rollnip.contact import NEAR_ENOUGH, Layout, elements_of_zones
 from rollnip.contact.problem import Array
 from rollnip.contact.secants import Secants
 from rollnip.rolling.mesh_solution import LEAST_SIZE, Figures, MeshSolution
@@ -76,6 +76,11 @@ class EndSearch:
     def second_order_settled(self) -> bool:
         """Whether the second order will no longer change."""
         return self.solver.kernels.is_fixed or self.state.second_order_settled
+
+    @property
+    def is_near(self) -> bool:
+        """Whether the ends are near enough for a solution to show what slips."""
+        return self.misplacement < NEAR_ENOUGH and self.second_order_settled
 
     @property
     def end_error(self) -> Figures | None:

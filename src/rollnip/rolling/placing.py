@@ -81,18 +81,13 @@ class Placing:
             # The figures show errors of ends only with the zones of the previous size.
             same_zones = settles_figures and search.layout.is_like(start.layout)
             is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
-            is_near = (
-                not zones_known
-                and search.misplacement < NEAR_ENOUGH
-                and search.second_order_settled
-            )
             others = self.zone_search.other_zones(
                 search.latest,
                 search.layout,
                 search.proposed,
                 search.vanishing,
                 is_placed=is_placed,
-                is_near=is_near,
+                is_near=not zones_known and search.is_near,
             )
             other = search.untried(others)
             if other is not None:

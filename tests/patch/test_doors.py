@@ -17,6 +17,7 @@ from rollnip._results.case import patch_case_tree
 from rollnip.cli.app import app
 from rollnip.io.patch_case import parse_patch_case, patch_hash, read_patch_case
 from rollnip.io.patch_files import write_patch, write_stress
+from rollnip.patch.ends import doubts
 from rollnip.patch.report import patch_dict, patch_lines
 from rollnip.plots import plot_patch
 
@@ -277,6 +278,49 @@ def test_stresses_and_ends_have_commands(tmp_path):
     assert 0.0 < row["bond_shear"] <= row["max_shear"] <= row["von_mises"]
     refused = CliRunner().invoke(app, ["patch", "ends", str(path)])
     assert "`--approach` must be given" in refused.stderr
+
+
+def end_at(share, **given):
+    """Return the parts of a `FaceEnd` that say what is in doubt, at a share of 8 mm of rubber."""
+    rubber = rn.Elastic(modulus=5.0, poisson=0.5, **given)
+    upper = rn.Roller(radius=50.0, layers=[rn.Layer(8.0, rubber)])
+    return doubts(upper, rn.Roller(radius=50.0), 8.0 * share)
+
+
+def test_the_end_of_a_face_says_where_its_covering_is_pressed_in_far():
+    """With the limits and the sentences of `patch solve`."""
+    assert end_at(0.14) == {"status": "", "warnings": ()}
+    deep = end_at(0.3)
+    assert deep["status"] == ""
+    assert "strains count as small" in deep["warnings"][0]
+    assert "8 mm thick, are pressed in by 83 % of that" in end_at(0.83)["status"]
+    assert "strain energy (Gent)" in end_at(0.1, energy=rn.Gent(limit=30.0))["warnings"][0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("given", [[], ["--covering"]])
+def test_an_end_that_is_pressed_in_too_far_is_not_converged(tmp_path, given):
+    path = tmp_path / "case.toml"
+    path.write_text(WHEEL.replace('end_radius = "2 mm"', ""))
+    deep = ["patch", "ends", str(path), "--approach", "6.64 mm", *given]
+    done = CliRunner().invoke(app, deep)
+    assert done.exit_code == 1
+    assert "note: The approach is more than 15 % of the coverings' thickness" in done.stdout
+    assert "not converged: The coverings, 8 mm thick, are pressed in by 83 %" in done.stderr
+    tree = json.loads(CliRunner().invoke(app, [*deep, "--json"]).stdout)
+    assert tree["converged"] is False
+    assert tree["status"].startswith("The coverings, 8 mm thick")
+    assert len(tree["warnings"]) == 1
+
+
+def test_stresses_are_printed_with_the_notes_of_their_patch(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(PRESSED.replace('load = "0.2 kN"', 'approach = "2 mm"'))
+    given = ["patch", "stress", str(path), "--depth", "4 mm"]
+    note = "The approach is more than 15 % of the coverings' thickness"
+    assert f"  note: {note}" in CliRunner().invoke(app, given).stdout
+    tree = json.loads(CliRunner().invoke(app, [*given, "--json"]).stdout)
+    assert any(line.startswith(note) for line in tree["warnings"])
 
 
 @pytest.mark.slow

@@ -209,9 +209,11 @@ def stress(
         if json:
             from rollnip._json import json_text
 
-            write(json_text({"roller": side, "depths": rows}) + "\n")
+            said = list(solution.warnings)
+            write(json_text({"roller": side, "depths": rows, "warnings": said}) + "\n")
         else:
-            write("\n".join(stress_lines(solution.patch.title, side, rows)) + "\n")
+            lines = stress_lines(solution.patch.title, side, rows, solution.warnings)
+            write("\n".join(lines) + "\n")
     if not solution.converged:
         leave(f"{problem.source}: not converged: {solution.status}", 1)
 
@@ -230,7 +232,8 @@ def ends(
     """Print the nip near the end of the upper roller's face, on a lower one that goes on.
 
     Line load and peak pressure over the distance from the end, and the length of face that the end
-    adds to the load of the plane nip or takes from it.
+    adds to the load of the plane nip or takes from it. The exit code is 1 where the coverings are
+    pressed in too far.
     """
     with clear_failures():
         from rollnip.io.patch_case import read_patch_case
@@ -266,6 +269,8 @@ def ends(
             write(json_text(end_dict(found)) + "\n")
         else:
             write("\n".join(end_lines(found)) + "\n")
+    if found.status:
+        leave(f"{problem.source}: not converged: {found.status}", 1)
 
 
 def _side(name: str) -> Side:

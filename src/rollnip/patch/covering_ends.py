@@ -14,7 +14,7 @@ covering does not feel the images.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 from typing import Literal
 
@@ -24,7 +24,7 @@ from scipy.fft import dct, idct
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.patch.coefficients import Array
-from rollnip.patch.ends import FaceEnd
+from rollnip.patch.ends import FaceEnd, doubts
 from rollnip.patch.normal import NormalProblem, solve_symmetric
 from rollnip.patch.strip_ends import EndedCovering, hat_products, plane_compliance
 from rollnip.rollers import Roller
@@ -85,7 +85,8 @@ def covering_end(upper: Roller, lower: Roller, approach: float, ending: Ending =
         half = pair.half_width()
         coarse = _solved(pair, ending, half, 0.5)
         fine = _solved(pair, ending, half, 1.0)
-    return fine.result(abs(fine.added - coarse.added))
+    found = fine.result(abs(fine.added - coarse.added))
+    return replace(found, **doubts(upper, lower, approach))
 
 
 def _require_ends(upper: Roller, lower: Roller, approach: float, ending: Ending) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
+from typing import TypedDict
 
 import numpy as np
 
@@ -17,11 +18,14 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import InvalidInputError, require_not_negative
 from rollnip.nip import Approach
 from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.deep import deep_patch, too_deep
 from rollnip.patch.level import Level, solve_level
 from rollnip.patch.solve import patch_box
 from rollnip.patch.tables import PairTables
 from rollnip.patches import Across, Patch
+from rollnip.reservation import texts
 from rollnip.rollers import Roller
+from rollnip.validity import energies_left_out
 
 _ALONG = 48
 """Number of rectangles along x."""
@@ -45,6 +49,8 @@ class FaceEnd:
         where the end carries less.
     error : of ``added_length``, from a solution with half as many rectangles or elements in each
         direction [mm].
+    status : why the figures are not to be used; "" where nothing speaks against them.
+    warnings : sentences on what is in doubt.
     """
 
     distance: Array
@@ -53,6 +59,8 @@ class FaceEnd:
     line_load: float
     added_length: float
     error: float
+    status: str = ""
+    warnings: tuple[str, ...] = ()
 
 
 def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 0.0) -> FaceEnd:
@@ -105,7 +113,23 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
         line_load=float(loads[_ACROSS // 2]),
         added_length=added,
         error=abs(added - _added(coarse)),
+        **doubts(upper, lower, approach),
     )
+
+
+class Doubts(TypedDict):
+    """What a `FaceEnd` says of itself."""
+
+    status: str
+    warnings: tuple[str, ...]
+
+
+def doubts(upper: Roller, lower: Roller, approach: float) -> Doubts:
+    """Return status and warnings of the end of a face at an approach [mm]."""
+    deep = deep_patch(upper, lower, approach)
+    said = [*energies_left_out("upper", upper), *energies_left_out("lower", lower)]
+    warnings = texts(said if deep is None else [*said, deep])
+    return Doubts(status=too_deep(upper, lower, approach), warnings=warnings)
 
 
 def _along_the_face(level: Level) -> tuple[Array, Array]:

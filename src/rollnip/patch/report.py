@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.metadata import version
 from math import isfinite
 from typing import Any
@@ -117,8 +117,10 @@ def stress_rows(field: PatchStress) -> list[dict[str, float]]:
     return rows
 
 
-def stress_lines(title: str, side: str, rows: list[dict[str, float]]) -> Iterator[str]:
-    """Yield the largest stresses at each depth, line by line."""
+def stress_lines(
+    title: str, side: str, rows: list[dict[str, float]], warnings: Iterable[str] = ()
+) -> Iterator[str]:
+    """Yield the largest stresses at each depth and the warnings of the patch, line by line."""
     yield title or "Patch"
     yield f"  largest stresses in the {side} roller [MPa]; von Mises' at (x, y)"
     yield "  depth [mm]  von Mises       x       y  max shear  tension  compression  bond shear"
@@ -128,6 +130,8 @@ def stress_lines(title: str, side: str, rows: list[dict[str, float]]) -> Iterato
             f"  {row['max_shear']:9.4g}  {row['largest_tension']:7.3g}"
             f"  {row['largest_compression']:11.4g}  {row['bond_shear']:10.4g}"
         )
+    for warning in warnings:
+        yield f"  note: {warning}"
 
 
 def end_dict(end: FaceEnd) -> dict[str, Any]:
@@ -139,6 +143,9 @@ def end_dict(end: FaceEnd) -> dict[str, Any]:
         "distance": end.distance.tolist(),
         "load": end.load.tolist(),
         "peak_pressure": end.peak_pressure.tolist(),
+        "converged": not end.status,
+        "status": end.status,
+        "warnings": list(end.warnings),
     }
 
 
@@ -150,6 +157,8 @@ def end_lines(end: FaceEnd) -> Iterator[str]:
     for share in _ENDS:
         i = int(np.searchsorted(end.distance, share * end.distance[-1]))
         yield f"  {end.distance[i]:13.3g}  {end.load[i]:4.2f}  {end.peak_pressure[i]:13.2f}"
+    for warning in end.warnings:
+        yield f"note: {warning}"
 
 
 _ENDS = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0)

@@ -13,6 +13,7 @@ from rollnip._errors import InvalidInputError
 from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
 from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.deep import deep_patch
 from rollnip.patch.depth import PatchStress, stress_at_depth
 from rollnip.patch.figures import PATCH_FIGURES
 from rollnip.patch.level import Level
@@ -26,7 +27,6 @@ from rollnip.validity import energies_left_out
 IntArray = NDArray[np.int8]
 
 _LARGE = 0.5  # length of a patch over a radius, above which there is a reservation
-_DEEP = 0.15  # approach over the thickness of the coverings, above which there is one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -366,13 +366,6 @@ def _reservations(solution: PatchSolution) -> Iterator[Reservation]:
                 side,
                 excess=solution.length / (_LARGE * roller.radius),
             )
-    covering = patch.upper.coating_thickness + patch.lower.coating_thickness
-    cores = patch.upper.core is None and patch.lower.core is None
-    if cores and solution.approach > _DEEP * covering:
-        yield Reservation(
-            "deep_patch",
-            "The approach is more than {limit:g} % of the coverings' thickness; strains count as "
-            "small, and approach and load are then off by more than 5 %.",
-            {"limit": 100.0 * _DEEP},
-            excess=solution.approach / (_DEEP * covering),
-        )
+    deep = deep_patch(patch.upper, patch.lower, solution.approach)
+    if deep is not None:
+        yield deep

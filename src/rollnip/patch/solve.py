@@ -15,8 +15,8 @@ from rollnip._errors import (
     require_positive,
 )
 from rollnip.nip import Approach
-from rollnip.no_nip import MOST_PRESSED_IN
 from rollnip.patch.coefficients import Grid
+from rollnip.patch.deep import too_deep
 from rollnip.patch.level import Level, solve_level
 from rollnip.patch.measures import FIGURES, figures_of
 from rollnip.patch.solution import PatchSolution
@@ -107,9 +107,9 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
     status = _status(level, name, worst, tolerance)
     if is_cut:
         status = "The contact reaches the rim of the grid; the figures are those of a part of it."
-    too_deep = _too_deep(patch, level)
-    status = too_deep or status
-    converged = bool(level.settled and worst <= tolerance and not is_cut and not too_deep)
+    deep = too_deep(patch.upper, patch.lower, figures_of(level)["approach"])
+    status = deep or status
+    converged = bool(level.settled and worst <= tolerance and not is_cut and not deep)
     return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes), wanted)
 
 
@@ -133,21 +133,6 @@ def _is_cut(patch: Patch, level: Level) -> bool:
         ends
         or (contact[0].any() and low > -patch.half_face + rim)
         or (contact[-1].any() and high < patch.half_face - rim)
-    )
-
-
-def _too_deep(patch: Patch, level: Level) -> str:
-    """Return the sentence on coverings that are pressed in too far; "" where they are not."""
-    if patch.upper.core is not None or patch.lower.core is not None:
-        return ""
-    thickness = patch.upper.coating_thickness + patch.lower.coating_thickness
-    share = figures_of(level)["approach"] / thickness
-    if share < MOST_PRESSED_IN:
-        return ""
-    return (
-        f"The coverings, {thickness:g} mm thick, are pressed in by {100.0 * share:.0f} % of that; "
-        f"beyond {100.0 * MOST_PRESSED_IN:.0f} % small strain does not hold. Lower the load or the "
-        "approach, or take a thicker or harder covering."
     )
 
 

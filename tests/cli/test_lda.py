@@ -146,6 +146,25 @@ def test_wrong_input_is_one_line_and_exit_2(tmp_path, monkeypatch, arguments, hi
     assert set(Path().iterdir()) == before
 
 
+@pytest.mark.parametrize(
+    ("arguments", "start"),
+    [
+        (("simulate", CASE, "--out", "a.csv", "--positions", "0"), "--positions: `positions`"),
+        (("simulate", CASE, "--out", "a.csv", "--bursts", "0"), "--bursts: `bursts`"),
+        (("simulate", CASE, "--out", "a.csv", "--beam-angle", "400 deg"), "--beam-angle: "),
+        (("simulate", CASE, "--out", "a.csv", "--sample-rate", "40 kHz"), "--sample-rate: "),
+        (("estimate", "means.csv", "--confidence", "120%"), "`--confidence` must be 50 % or more"),
+        (("compare", CASE, "means.csv", "--confidence", "49 %"), "`--confidence` must be 50 %"),
+    ],
+)
+def test_a_wrong_option_is_named_and_not_a_file(tmp_path, monkeypatch, arguments, start):
+    monkeypatch.chdir(tmp_path)
+    Path("means.csv").write_text("x [mm],velocity [mm/s],error [mm/s]\n1,100,1\n", "utf-8")
+    result = run(*arguments)
+    assert result.exit_code == 2, result.output
+    assert result.stderr.startswith(f"rollnip: {start}")
+
+
 def test_numerics_are_loaded_late():
     code = (
         "import sys; from rollnip.cli.app import app; "

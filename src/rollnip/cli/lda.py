@@ -10,7 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, overridden, write
+from rollnip.cli.console import clear_failures, named, named_by, overridden, write
 from rollnip.cli.options import Force, Geometry
 
 if TYPE_CHECKING:
@@ -37,6 +37,18 @@ _RATE = typer.Option(help='Sample rate of the detector, such as "250 kHz".')
 _SHIFT = typer.Option(help='Frequency shift of one beam, such as "40 kHz".')
 _ROLLER = typer.Option(help="Roller whose surface is measured: upper or lower.")
 _CONFIDENCE = typer.Option(help='Confidence of bands and intervals, such as "95 %".')
+_OPTIONS = {
+    "positions": "--positions",
+    "bursts": "--bursts",
+    "snr": "--snr",
+    "spread": "--spread",
+    "wavelength": "--wavelength",
+    "beam_angle": "--beam-angle",
+    "half_width": "--half-width",
+    "sample_rate": "--sample-rate",
+    "shift": "--shift",
+}
+"""The option that says each value of instrument and scan."""
 
 
 @lda.command()
@@ -74,16 +86,17 @@ def simulate(
         from rollnip.lda import Instrument, Seeding, simulate_scan
 
         known = _settings(wavelength, beam_angle, half_width, sample_rate, shift, None, roller)
-        instrument = _instrument(known, Instrument)
         with named("--spread"):
             fraction = parse_quantity(spread, "ratio")
-        seeding = Seeding(bursts=bursts, snr=snr, spread=fraction)
+        with named_by(_OPTIONS, case):
+            instrument = _instrument(known, Instrument)
+            seeding = Seeding(bursts=bursts, snr=snr, spread=fraction)
         if seed < 0:
             raise InvalidInputError(f"`--seed` must be zero or positive, got {seed}.")
         solution, source = _solved(case, geometry)
         _make_ready(out)
         run.reserve({f"--out ({one.name})": one for one in _scan_files(out)})
-        with named(source):
+        with named_by(_OPTIONS, source):
             scan = simulate_scan(
                 solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
             )
@@ -172,7 +185,9 @@ def compare(
         known = known.over(readings.settings)
         profile = readings.profile(known, confidence=level)
         solution, _ = _solved(case, geometry)
-        with named(str(file)):
+        given = {"half_width": half_width, "wavelength": wavelength, "beam_angle": beam_angle}
+        options = {name: _OPTIONS[name] for name, text in given.items() if text is not None}
+        with named_by(options, str(file)):
             result = align(
                 profile,
                 solution,
@@ -237,7 +252,12 @@ def _confidence(text: str) -> float:
     from rollnip._units import parse_quantity
 
     with named("--confidence"):
-        return parse_quantity(text, "ratio")
+        level = parse_quantity(text, "ratio")
+    if not 0.5 <= level < 1.0:
+        raise InvalidInputError(
+            f"`--confidence` must be 50 % or more and less than 100 %, got {text}."
+        )
+    return level
 
 
 def _solved(case: str, geometry: str | None) -> tuple[Solution, str]:

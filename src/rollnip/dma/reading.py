@@ -106,9 +106,10 @@ class Reading:
         if good and not (numbers and len(good) < len(tables)):
             return good
         if not self.tables:
+            lacks = "no table whose heads are known" if self.passed else "no rows"
             raise InvalidInputError(
-                f"{self.source}: holds no table whose heads are known; write one line of heads "
-                "over the numbers, such as \"temperature [degC]; frequency [Hz]; E' [MPa]; "
+                f"{self.source}: holds {lacks}; write one line of heads over the numbers, "
+                "such as \"temperature [degC]; frequency [Hz]; E' [MPa]; "
                 "E'' [MPa]\"."
             )
         why = [f"{table.name}: {table.problem or _other(table)}" for table in tables]
@@ -204,6 +205,9 @@ def _understood(
         notes.append(f"left out: {counted(len(lost), 'row')} without a value ({named_lines(lost)})")
     where = "line" if cells.encoding else f'sheet "{table.name}", row'
     rows = tuple(f"{where} {line}" for line, k in zip(table.lines, good, strict=True) if k)
+    if not table.rows:
+        problem = f"it has no rows of numbers; write them below its heads {_seen(table)}."
+        return replace(empty, problem=problem)
     if not rows:
         return replace(empty, problem=f"it has no row in which all values stand {_seen(table)}.")
     kinds = {table.heads[i].kind for i in used.values()} - {None}

@@ -121,7 +121,10 @@ def _sheets(file: Path, data: bytes) -> Iterator[CellSheet]:
 
 
 def _separator(lines: Sequence[str]) -> str:
-    """Return the separator of cells in most of the lines that hold numbers."""
+    """Return the separator of cells in most of the lines that hold numbers.
+
+    Where no line does, as in a file of heads alone, that of the first line with a tab or semicolon.
+    """
     found: Counter[str] = Counter()
     for line in lines:
         if len(_NUMERIC.findall(line)) < 2:
@@ -134,7 +137,10 @@ def _separator(lines: Sequence[str]) -> str:
             found[","] += 1
         elif _is_blank_separated(line):
             found[" "] += 1
-    return found.most_common(1)[0][0] if found else ","
+    if found:
+        return found.most_common(1)[0][0]
+    marks = (mark for line in lines for mark in "\t;" if mark in line.strip())
+    return next(marks, ",")
 
 
 def _is_blank_separated(line: str) -> bool:

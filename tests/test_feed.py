@@ -69,6 +69,55 @@ def test_a_larger_roller_feeds_more_in_a_turn(changes):
     assert found.per_turn == pytest.approx(1.0 + found.upper, rel=2e-3)
 
 
+def test_gears_stay_where_a_diameter_changes():
+    """Equal rollers, geared one to one: the sheet runs at the mean speed of both surfaces.
+
+    With one roller 1 % larger it is fed half of that farther in a turn, whichever roller it is.
+    With the creepage kept instead, as by other gears, it would be all and nothing.
+    """
+    nip = rn.Nip(
+        upper=LOWER,
+        lower=LOWER,
+        normal=rn.LineLoad(1.0),
+        tangential=rn.Creepage(0.0),
+        friction=1.2,
+        sheet=rn.Sheet(thickness=0.1, modulus=500.0, poisson=0.3),
+    )
+    found = {one.path: one for one in rn.feed_sensitivity(nip, LINEAR)}
+    upper, lower = found["upper.radius"], found["lower.radius"]
+    assert upper.converged
+    assert lower.converged
+    assert upper.per_turn == pytest.approx(0.5, abs=0.01)  # up to its change at the same creepage
+    assert lower.per_turn == pytest.approx(upper.per_turn, rel=1e-3)
+    assert upper.upper == pytest.approx(lower.lower, rel=1e-3)  # by symmetry
+
+
+def test_the_creepage_of_geared_rollers_follows_their_diameters():
+    """V_u/V_l of 1.1 at a creepage of 2/21; a lower roller 1.1 times as large makes it 1."""
+    from rollnip.feed import _turned_by_the_same_gears as turned
+
+    nip = rn.Nip(
+        upper=UPPER,
+        lower=LOWER,
+        normal=rn.LineLoad(1.0),
+        friction=0.4,
+        tangential=rn.Creepage(2.0 / 21.0),
+    )
+    assert turned(nip, "lower", 1.1).tangential.creepage == pytest.approx(0.0, abs=1e-12)
+    assert turned(nip, "upper", 1.0 / 1.1).tangential.creepage == pytest.approx(0.0, abs=1e-12)
+    free = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4)
+    assert turned(free, "upper", 1.1) == free
+
+
+def test_the_command_says_that_gears_stay(tmp_path):
+    file = tmp_path / "case.toml"
+    text = (EXAMPLES / "sheet-web-pull.toml").read_text("utf-8")
+    file.write_text(text.replace("[sheet]", "[sheet]\nbending = false"), "utf-8")
+    found = CliRunner().invoke(app, ["feed", str(file), "--geometry", "linear"])
+    assert found.exit_code == 0
+    assert "a diameter changes at the same gears, and the creepage with it." in found.stdout
+
+
 def test_each_path_is_a_key_of_the_case(changes):
     """With the value that stands there, and a name in plain words."""
     for path, one in changes.items():

@@ -17,7 +17,7 @@ from rollnip._errors import (
 from rollnip.influence import KernelCache
 from rollnip.materials import Elastic, Material, Prony, StandardLinearSolid
 from rollnip.model import Model
-from rollnip.nip import Approach, LineLoad, Nip
+from rollnip.nip import Approach, Creepage, LineLoad, Nip
 from rollnip.rollers import SIDES, Roller, Side
 from rollnip.sheet import SheetSolution
 from rollnip.solver import geometry_for, solve
@@ -25,6 +25,9 @@ from rollnip.solver import geometry_for, solve
 __all__ = ["FeedChange", "feed_sensitivity"]
 
 _MOST_SHARE = 0.2
+_GEARED = 0.05
+"""Share by which diameters of geared rollers change, over that of other quantities: they change the
+creepage by as much, and a creepage of 0.05 makes most nips slip over their whole width."""
 _OF_SHEET = {
     "thickness": "thickness of the sheet",
     "modulus": "modulus of the sheet",
@@ -36,6 +39,9 @@ _OF_SHEET = {
 @dataclass(frozen=True, slots=True)
 class FeedChange:
     """Sensitivity of a sheet's feed to one quantity, with all others held constant.
+
+    Between geared rollers (a creepage is prescribed) the gears are held constant where a diameter
+    changes: the creepage follows it.
 
     Attributes
     ----------
@@ -77,8 +83,10 @@ def feed_sensitivity(
 
     Each quantity is increased and decreased by the fraction ``share``, and the rest is held
     constant: what is prescribed stays prescribed (including the approach, where it is given instead
-    of the load). Zero tensions and the radius of a flat roller are omitted, and so are moduli of
-    materials other than `Elastic`, `StandardLinearSolid` and `Prony`.
+    of the load). A prescribed creepage is one of geared rollers; where a diameter changes, the
+    gears stay as they are and the creepage follows (``share`` is 0.05 times as large there). Zero
+    tensions and the radius of a flat roller are omitted, and so are moduli of materials other than
+    `Elastic`, `StandardLinearSolid` and `Prony`.
 
     Parameters
     ----------
@@ -112,11 +120,17 @@ def feed_sensitivity(
     nip = replace(nip, sheet=replace(nip.sheet, bending=middle.sheet.bends))
     quantities, changes = list(_quantities(nip)), []
     for quantity, path, value, changed in quantities:
-        low, high = (_solved(changed(1.0 + step), model, cache) for step in (-share, share))
-        changes.append(_change((quantity, path, value), (low, high), middle, share))
+        step = share * _GEARED if is_geared(nip) and path.endswith(".radius") else share
+        low, high = (_solved(changed(1.0 + by), model, cache) for by in (-step, step))
+        changes.append(_change((quantity, path, value), (low, high), middle, step))
         if progress is not None:
             progress(len(changes), len(quantities))
     return tuple(sorted(changes, key=lambda one: -abs(one.upper)))
+
+
+def is_geared(nip: Nip) -> bool:
+    """Return whether the creepage of a nip is prescribed, as that of geared rollers is."""
+    return isinstance(nip.tangential, Creepage)
 
 
 def _solved(nip: Nip, model: Model, cache: KernelCache) -> SheetSolution:
@@ -194,7 +208,9 @@ def _of_roller(nip: Nip, side: Side) -> Iterator[_Quantity]:
             f"diameter of the {side} roller",
             f"{side}.radius",
             roller.radius,
-            lambda factor: _with(nip, side, radius=factor * roller.radius),
+            lambda factor: _turned_by_the_same_gears(
+                _with(nip, side, radius=factor * roller.radius), side, factor
+            ),
         )
     layers = roller.layers
     if not layers:
@@ -227,6 +243,19 @@ def _of_roller(nip: Nip, side: Side) -> Iterator[_Quantity]:
 def _with(nip: Nip, side: Side, **given: Any) -> Nip:
     roller: Roller = replace(getattr(nip, side), **given)
     return replace(nip, upper=roller) if side == "upper" else replace(nip, lower=roller)
+
+
+def _turned_by_the_same_gears(nip: Nip, side: Side, factor: float) -> Nip:
+    """Return a nip with the creepage that follows where a diameter changed by a factor.
+
+    V_u/V_l = (2 + xi)/(2 - xi) is the ratio of the diameters times that of the gears. A creepage
+    that is not prescribed stays as it is.
+    """
+    if not isinstance(nip.tangential, Creepage):
+        return nip
+    creepage = nip.tangential.creepage
+    ratio = (2.0 + creepage) / (2.0 - creepage) * (factor if side == "upper" else 1.0 / factor)
+    return replace(nip, tangential=Creepage(2.0 * (ratio - 1.0) / (ratio + 1.0)))
 
 
 def _with_sheet(nip: Nip, name: str, factor: float) -> Nip:

@@ -46,7 +46,7 @@ def feed(
             )
         model = overridden(problem.model, geometry, tolerance)
         from rollnip.cli.progress import counting
-        from rollnip.feed import feed_sensitivity
+        from rollnip.feed import feed_sensitivity, is_geared
         from rollnip.rollers import SIDES
         from rollnip.validity import energies_left_out
 
@@ -55,7 +55,8 @@ def feed(
         for side in SIDES:
             for one in energies_left_out(side, getattr(problem.nip, side)):
                 sys.stderr.write(f"rollnip: warning: {one.text}\n")
-        write((_as_json(changes) if json else _as_text(changes)) + "\n")
+        geared = is_geared(problem.nip)
+        write((_as_json(changes) if json else _as_text(changes, geared=geared)) + "\n")
     if not all(one.converged for one in changes):
         raise typer.Exit(1)
 
@@ -74,12 +75,17 @@ def _is_nan(value: object) -> bool:
     return isinstance(value, float) and not isfinite(value)
 
 
-def _as_text(changes: tuple[FeedChange, ...]) -> str:
+def _as_text(changes: tuple[FeedChange, ...], *, geared: bool) -> str:
     lines = ["Change of the feed in mm per m:", "{:34}{:>16}{:>16}{:>12}{:>10}".format(*_HEAD)]
     for one in changes:
         four = one.upper, one.lower, one.per_turn, one.error
         values = (round(10.0 * value, 4) + 0.0 for value in four)  # no -0
         lines.append("{:34}{:16.4f}{:16.4f}{:12.4f}{:10.4f}".format(one.quantity, *values))
+    if geared:
+        lines.append(
+            "The creepage is prescribed: a diameter changes at the same gears, and the creepage "
+            "with it."
+        )
     if not all(one.converged for one in changes):
         lines.append("Not every solution was verified.")
     return "\n".join(lines)

@@ -1,12 +1,15 @@
 """The list of validity warnings: each appears beyond its threshold and not before."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 import rollnip as rn
 from rollnip.model import Model
 from rollnip.solver import solve
+from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 
@@ -33,6 +36,27 @@ def test_a_nip_like_those_compared_has_no_warning():
 
 def test_deep_indentation():
     assert "of their thickness" in warnings_of(nip(load=6.0))
+
+
+def judged_nips():
+    """Yield every nip of tests/data that was compared with finite elements."""
+    for file in sorted((Path(__file__).parent / "data").glob("*finite_*.json")):
+        found = json.loads(file.read_text("utf-8")).get("results", [])
+        yield from (one for one in found if "approach" in one)
+
+
+def test_no_nip_was_compared_beyond_the_limits_that_the_sentences_name():
+    """And one nearly at the limit of the indentation: 15.9 % of the covering."""
+    strains, angles = [], []
+    for one in judged_nips():
+        rollers = (one["upper"], one["lower"])
+        covering = sum(layer["thickness"] for part in rollers for layer in part.get("layers", []))
+        strains.append(one["approach"] / covering)
+        low, high = one.get("contact_x", (0.0, 0.0))
+        angles.append(0.5 * (high - low) / min(part["radius"] for part in rollers))
+    assert len(strains) > 90
+    assert NIP_STRAIN - 0.01 < max(strains) <= NIP_STRAIN
+    assert 0.1 < max(angles) <= CONTACT_ANGLE
 
 
 def test_thick_covering():

@@ -19,7 +19,7 @@ MOST_PRESSED_IN = 0.5
 
 Small-strain kinematics count u/d where the material sees -ln(1 - u/d): at one half these are 40 %
 apart, and at 1 the surface has reached the core. Finite strain counts it right, but was compared up
-to a sixth only. Coverings in use stay below a fifth.
+to 16 % only. Coverings in use stay below a fifth.
 """
 MOST_CREEPAGE = 2.0
 """Creepage at which one roller stands still; beyond, it would rotate backwards."""

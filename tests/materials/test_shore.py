@@ -3,7 +3,12 @@
 import pytest
 
 from rollnip._errors import InvalidInputError
-from rollnip.materials import shore_a_band, shore_a_modulus, shore_a_modulus_log_linear
+from rollnip.materials import (
+    shore_a_band,
+    shore_a_modulus,
+    shore_a_modulus_log_linear,
+    shore_a_of_modulus,
+)
 
 
 @pytest.mark.parametrize(("shore_a", "modulus"), [(60.0, 3.61), (80.0, 9.35)])
@@ -46,3 +51,15 @@ def test_outside_the_scale_is_refused(shore_a):
 def test_band_refuses_an_absurd_reading():
     with pytest.raises(InvalidInputError, match="`reading`"):
         shore_a_band(60.0, reading=21.0)
+
+
+@pytest.mark.parametrize("shore_a", [20.5, 60.0, 94.5])
+def test_the_hardness_of_a_modulus_is_the_inverse(shore_a):
+    assert shore_a_of_modulus(shore_a_modulus(shore_a)) == pytest.approx(shore_a, rel=1e-12)
+
+
+def test_a_modulus_outside_the_scale_has_no_hardness():
+    assert shore_a_of_modulus(0.1) is None
+    assert shore_a_of_modulus(1000.0) is None
+    with pytest.raises(InvalidInputError, match="`modulus` must be positive"):
+        shore_a_of_modulus(0.0)

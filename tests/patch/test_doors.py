@@ -17,6 +17,7 @@ from rollnip._results.case import patch_case_tree
 from rollnip.cli.app import app
 from rollnip.io.patch_case import parse_patch_case, patch_hash, read_patch_case
 from rollnip.io.patch_files import write_patch, write_stress
+from rollnip.materials import shore_a_of_modulus
 from rollnip.patch.ends import doubts
 from rollnip.patch.report import patch_dict, patch_lines
 from rollnip.plots import plot_patch
@@ -385,10 +386,14 @@ def test_hardness_of_a_covering(tmp_path):
     path.write_text(WHEEL)
     done = CliRunner().invoke(app, ["patch", "hardness", str(path)])
     assert done.exit_code == 0
-    *readings, thickness = done.stdout.splitlines()
+    *readings, thickness, note = done.stdout.splitlines()
     covering, block = (float(line.split(": ")[1]) for line in readings)
     assert block < covering < block + 3.0
     assert thickness.endswith(" mm on.")
+    assert "Gent's formula" in note
+    by_gent = shore_a_of_modulus(5.0)
+    assert f"has Shore A {by_gent:.1f} for this layer" in note
+    assert block < by_gent < block + 6.0  # its punch is wider than the tip
     assert CliRunner().invoke(app, ["patch", "hardness", str(path), "--roller", "x"]).exit_code == 2
 
 

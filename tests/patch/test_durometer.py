@@ -49,3 +49,13 @@ def test_it_is_of_the_size_of_gents_formula():
 def test_a_rigid_base_alone_is_refused():
     with pytest.raises(rn.InvalidInputError, match="deform"):
         shore_a_reading([])
+
+
+@pytest.mark.parametrize("shore_a", [30.0, 60.0, 90.0])
+def test_a_block_reads_less_than_gents_flat_punch(shore_a):
+    """By 2 to 5 points: the indenter carries what a punch between its tip and Gent's carries."""
+    rubber = rn.Elastic.from_shore_a(shore_a)
+    assert 1.5 < shore_a - shore_a_reading([], rubber) < 5.2
+    depth = 2.5 * (1.0 - shore_a / 100.0)
+    punch = Indentation.of([], rubber).force(depth) / (8.0 / 3.0 * rubber.modulus * depth)
+    assert 0.395 < punch < 0.516

@@ -297,16 +297,26 @@ def hardness(
         write(_readings(problem, roller))
 
 
+_GENT = (
+    "note: Gent's formula, by which `shore_a` gives a modulus, has Shore A {:.1f} for this layer. "
+    "It takes a wider, flat punch for the indenter, so rely on the difference of two readings here."
+    "\n"
+)
+
+
 def _readings(problem: PatchCase, name: str) -> str:
     name = _side(name)
+    from rollnip.materials import shore_a_of_modulus
     from rollnip.patch import least_thickness, shore_a_reading
 
     roller = problem.patch.upper if name == "upper" else problem.patch.lower
     covering = shore_a_reading(roller.layers, roller.core)
     block = shore_a_reading([], roller.materials[0])
+    by_gent = shore_a_of_modulus(roller.materials[0].relaxed_modulus)
+    note = "" if by_gent is None else _GENT.format(by_gent)
     return (
         f"Shore A on the covering of the {name} roller: {covering:.1f}\n"
         f"Shore A on a thick block of its top layer: {block:.1f}\n"
         "A sheet of the top layer on a hard base reads within 1 point of the block from "
-        f"{least_thickness(roller.materials[0]):.2g} mm on.\n"
+        f"{least_thickness(roller.materials[0]):.2g} mm on.\n{note}"
     )

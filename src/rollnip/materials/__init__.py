@@ -19,6 +19,7 @@ from rollnip.materials.shore import (
     shore_a_band,
     shore_a_modulus,
     shore_a_modulus_log_linear,
+    shore_a_of_modulus,
 )
 from rollnip.materials.thermal import SOURCES, TYPICAL, Thermal
 from rollnip.materials.viscoelastic import (
@@ -60,6 +61,7 @@ __all__ = [
     "shore_a_band",
     "shore_a_modulus",
     "shore_a_modulus_log_linear",
+    "shore_a_of_modulus",
     "stiffness_of_hardness",
     "with_shore_a",
     "with_stiffness",

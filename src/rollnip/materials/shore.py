@@ -9,7 +9,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from rollnip._errors import InvalidInputError, require_finite, require_not_negative
+from rollnip._errors import (
+    InvalidInputError,
+    require_finite,
+    require_not_negative,
+    require_positive,
+)
 
 _SOFTEST = 20.0
 _HARDEST = 95.0
@@ -55,6 +60,30 @@ def shore_a_modulus(shore_a: float) -> float:
     Technol. 31, 896-906.
     """
     return _gent(_checked_hardness(shore_a))
+
+
+def shore_a_of_modulus(modulus: float) -> float | None:
+    """Return the Shore A hardness whose modulus by Gent's formula is this one.
+
+    The inverse of `shore_a_modulus`.
+
+    Parameters
+    ----------
+    modulus :
+        Young's modulus [MPa], positive.
+
+    Returns
+    -------
+    The hardness; None where it lies outside 20 to 95.
+
+    Raises
+    ------
+    InvalidInputError
+        for a modulus that is not positive and finite.
+    """
+    scaled = 0.137505 * require_positive("modulus", modulus) / 0.0981
+    hardness = (254.0 * scaled - 56.0) / (7.62336 + 2.54 * scaled)
+    return hardness if _SOFTEST <= hardness <= _HARDEST else None
 
 
 def shore_a_modulus_log_linear(shore_a: float) -> float:

@@ -104,6 +104,10 @@ def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> fl
     The strains under a durometer are large, while the covering is taken as linearly elastic: the
     number is an estimate. It is meant for the *difference* between a sheet and a thick block.
 
+    A block reads 2 to 5 points less than the hardness of its modulus by Gent's formula
+    (`rollnip.materials.shore_a_modulus`), which is linear, too, but takes a flat punch of 0.516 mm
+    radius for the indenter: its tip has 0.395 mm, and the covering reaches little of its cone.
+
     Parameters
     ----------
     layers :

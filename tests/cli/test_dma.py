@@ -85,6 +85,10 @@ def test_a_nip_warmer_or_colder_than_the_data_is_warned_of(tmp_path, temperature
         (("--out", "a.csv"), "must end in .toml"),
         (("--plot", "a.exe"), "must end in"),
         (("--sheet", "one"), "no sheets"),
+        (("--terms", "0"), "rollnip: --terms: `terms`"),
+        (("--poisson", "nan"), "rollnip: --poisson: `poisson`"),
+        (("--reference", "-300 degC"), "rollnip: --reference: `reference`"),
+        (("--c1", "-5", "--c2", "51 K", "--reference", "23 degC"), "rollnip: --c1: `c1`"),
         (("--case", NIP, "--name", "other"), "`other`"),
     ],
 )

@@ -75,7 +75,7 @@ def test_json_on_the_standard_output(file):
     [
         (("widths.csv", "none.csv"), (), "none.csv"),
         (('modulus"', 'modlus"'), (), "modlus"),
-        (("0.2 mm", "0.2 N"), (), "data[0].standard_error"),
+        (("0.2 mm", "0.2 N"), (), "fit.toml: data[0].standard_error"),
         (("nip-width", "nip-with"), (), "data[0].kind"),
         (("", ""), ("--geometry", "flat"), "--geometry"),
         (("", ""), ("--out", "widths.csv"), "must be a folder"),

@@ -48,6 +48,8 @@ def test_wrong_input_is_said():
         (("--test", "shear"), "must not be given"),
         (("--out", "x.txt"), ".toml"),
         (("--poisson", "0.7"), "`poisson`"),
+        (("--poisson", "nan"), "`poisson` must be a finite number"),
+        ((TRELOAR,), "must be given once; its rows would count twice"),
     ):
         found = run(TRELOAR, *options)
         assert found.exit_code == 2

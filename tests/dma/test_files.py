@@ -251,6 +251,8 @@ def test_the_layout_of_pyvisco(file):
         ("f [Hz]\tT [°C]\tE' [MPa]\tE'' [MPa]\n", "table 1: it has no rows of numbers"),
         ("f [Hz],T [°C],E' [MPa],E'' [MPa]\n\n", "table 1: it has no rows of numbers"),
         ("Date; 3 May\nf;T;E';E''\nHz;C;MPa;MPa\n", "table 1: it has no rows of numbers"),
+        ("f [Hz];T [°C];E' [MPa];E'' [MPa]\n" + "1e-300;20;1;1\n" * 4, "between 1e-30 and 1e+30"),
+        ("f [Hz];T [°C];E' [MPa];E'' [MPa]\n" + "1;1e300;1;1\n" * 4, "at most 10000 degC"),
         ("", "holds no rows; write one line of heads over the numbers"),
         ("T [°C];E' [MPa];E'' [MPa]\n20;1;1\n", "it has no column of frequencies"),
         ("|E*| [MPa];T [°C];f [Hz]\n20;1;1\n", "it lacks the loss modulus, tan delta or the phase"),
@@ -260,6 +262,14 @@ def test_messages_say_what_to_rewrite(file, text, said):
     with pytest.raises(InvalidInputError) as error:
         read_dma(file(text))
     assert said in str(error.value)
+
+
+def test_a_table_is_taken_once(file):
+    """Given twice, its rows counted twice, and intervals were too narrow."""
+    path = file("f [Hz];T [°C];E' [MPa];E'' [MPa]\n" + "1;20;1;1\n" * 4)
+    assert read_dma(path, tables=(1,)).frequency.size == 4
+    with pytest.raises(InvalidInputError, match="table 1 must be given once"):
+        read_dma(path, tables=(1, 1))
 
 
 @pytest.mark.parametrize(

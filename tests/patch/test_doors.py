@@ -324,6 +324,35 @@ def test_stresses_are_printed_with_the_notes_of_their_patch(tmp_path):
     assert any(line.startswith(note) for line in tree["warnings"])
 
 
+@pytest.mark.parametrize(
+    ("given", "start"),
+    [
+        (("stress", "--depth", "-1 mm"), "`--depth` must be positive, got -1 mm."),
+        (("stress", "--depth", "9 mm"), "--depth: `z` must not exceed the bottom 8.0, got 9.0."),
+        (("stress", "--roller", "lower"), "`--roller` must name a roller that deforms; the lower"),
+        (("hardness", "--roller", "lower"), "`--roller` must name a roller that deforms"),
+        (("ends", "--approach", "9 mm"), "--approach: `approach` must be smaller than"),
+        (("solve", "--tolerance", "0"), "--tolerance: `tolerance` must be positive"),
+    ],
+)
+def test_a_wrong_option_is_named(tmp_path, given, start):
+    path = tmp_path / "case.toml"
+    path.write_text(PRESSED)
+    done = CliRunner().invoke(app, ["patch", given[0], str(path), *given[1:]])
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"rollnip: {start}")
+
+
+def test_a_viscoelastic_covering_has_no_hardness_and_its_case_is_named(tmp_path):
+    path = tmp_path / "case.toml"
+    solid = 'model = "standard-linear-solid"\nstiffening = "1 MPa"\nrelaxation_time = "1 ms"'
+    path.write_text(WHEEL.replace('model = "elastic"', solid))
+    done = CliRunner().invoke(app, ["patch", "hardness", str(path)])
+    assert done.exit_code == 2
+    assert f"{path}: `layers` must be elastic" in done.stderr
+
+
 @pytest.mark.slow
 def test_the_end_of_a_face_is_printed(tmp_path):
     path = tmp_path / "case.toml"

@@ -253,3 +253,17 @@ def test_a_modulus_known_to_its_own_size_only_is_said_to_be_open():
     (shear,) = fit.constants
     assert 2.0 * shear.value < shear.high - shear.low < 2.0
     assert any("leave G open" in line for line in fit.warnings)
+
+
+@pytest.mark.parametrize(
+    ("stretch", "stress", "said"),
+    [
+        (2.0, 1e300, r"`stress\[0\]` must be at most 1e\+12 MPa in size"),
+        (1e200, 1.0, r"`stretch\[0\]` must lie between 0.001 and 1000"),
+        (2.0, 1e-300, "a measurement of tension with a stress"),
+    ],
+)
+def test_numbers_of_no_rubber_are_said(stretch, stress, said):
+    """They overflowed, and ended in a traceback."""
+    with pytest.raises(rn.InvalidInputError, match=said):
+        fit_rubber(RubberData("here", ("tension",) * 5, [stretch] * 5, [stress] * 5))

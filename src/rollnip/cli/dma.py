@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_finite
 from rollnip._files import one_run
 from rollnip._json import json_text
-from rollnip.cli.console import clear_failures, named, read_option
+from rollnip.cli.console import clear_failures, named, named_by, read_option
 from rollnip.cli.dma_files import convert, show
 from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
@@ -25,6 +25,20 @@ dma = typer.Typer(
     rich_markup_mode=None,
     no_args_is_help=True,
 )
+
+
+_OPTIONS = {
+    "model": "--model",
+    "shift": "--shift",
+    "reference": "--reference",
+    "vertical": "--vertical",
+    "terms": "--terms",
+    "poisson": "--poisson",
+    "c1": "--c1",
+    "c2": "--c2",
+    "activation_energy": "--energy",
+}
+"""The option that says each value of the method."""
 
 
 dma.command()(show)
@@ -113,6 +127,10 @@ def fit(
         _check_targets(out, plot)
         _choose("--modulus", modulus, ("E", "G", None))
         degrees = read_option("--reference", reference, "temperature")
+        c2_read = read_option("--c2", c2, "temperature difference")
+        law = _law(shift, c1, c2_read, energy, degrees)
+        with named("--poisson"):
+            require_finite("poisson", poisson)
         data = _data(
             file,
             modulus=modulus,
@@ -123,8 +141,7 @@ def fit(
             tables=tuple(table or ()),
         )
         run.reserve({"--out": out, "--plot": plot})
-        law = _law(shift, c1, read_option("--c2", c2, "temperature difference"), energy, degrees)
-        with named(str(file)):
+        with named_by(_OPTIONS, str(file)):
             method = DmaMethod(
                 model=model,  # type: ignore[arg-type]
                 shift=law,
@@ -211,11 +228,12 @@ def _law(
         raise InvalidInputError("`--reference` must be given with a known law: it belongs to it.")
     if c1 is not None and joules is not None:
         raise InvalidInputError("`--energy` must not be given with `--c1`: they are two laws.")
-    if joules is not None:
-        return Arrhenius(joules, reference)
-    assert c1 is not None
-    assert c2 is not None
-    return WLF(c1, c2, reference)
+    with named_by(_OPTIONS, "--reference"):
+        if joules is not None:
+            return Arrhenius(joules, reference)
+        assert c1 is not None
+        assert c2 is not None
+        return WLF(c1, c2, reference)
 
 
 def _check_targets(out: Path | None, plot: Path | None) -> None:

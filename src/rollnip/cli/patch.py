@@ -10,7 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, leave, named, read_option, write
+from rollnip.cli.console import clear_failures, leave, named, named_by, read_option, write
 from rollnip.cli.options import Force, Units
 from rollnip.figure import checked_units
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rollnip.figure import Units as System
     from rollnip.io.patch_case import PatchCase
     from rollnip.patch import PatchSolution
-    from rollnip.rollers import Side
+    from rollnip.rollers import Roller, Side
 
 patch = typer.Typer(
     name="patch",
@@ -153,7 +153,8 @@ def _solved(problem: PatchCase, tolerance: str | None) -> PatchSolution:
 
     given = read_option("--tolerance", tolerance, "ratio")
     wanted = problem.tolerance if given is None else given
-    with named(problem.source):
+    sources = {} if given is None else {"tolerance": "--tolerance"}
+    with named_by(sources, problem.source):
         return solve_patch(
             problem.patch,
             tolerance=PATCH_TOLERANCE if wanted is None else wanted,
@@ -196,16 +197,17 @@ def stress(
         from rollnip.patch.report import stress_lines, stress_rows
 
         problem = read_patch_case(case)
-        side = _side(roller)
+        side, _ = _deforming(problem, roller)
         run.reserve({"--out": out})
         if out is not None:
             check_patch_target(out, STRESS_SUFFIXES)
-        given = sorted(read_option("--depth", one, "length") or 0.0 for one in depth or [])
+        given = sorted(_depth(one) for one in depth or [])
         solution = _solved(problem, tolerance)
         z = given or usual_depths(solution, side)
-        if out is not None:
-            write_stress(solution, side, z, out)
-        rows = stress_rows(solution.stress(side, z))
+        with named_by({"z": "--depth"}, problem.source):
+            rows = stress_rows(solution.stress(side, z))
+            if out is not None:
+                write_stress(solution, side, z, out)
         if json:
             from rollnip._json import json_text
 
@@ -251,7 +253,8 @@ def ends(
                 "`--approach` must be given, for the case gives a load of the whole patch."
             )
         radius = problem.patch.across_upper.end_radius
-        with named(problem.source):
+        sources = {} if approach is None else {"approach": "--approach"}
+        with named_by(sources, problem.source):
             upper, lower = problem.patch.upper, problem.patch.lower
             if covering and radius > 0.0:
                 raise InvalidInputError(
@@ -304,18 +307,36 @@ _GENT = (
 )
 
 
+def _deforming(problem: PatchCase, name: str) -> tuple[Side, Roller]:
+    """Return the roller that ``--roller`` names; it must be one that deforms."""
+    side = _side(name)
+    roller = problem.patch.upper if side == "upper" else problem.patch.lower
+    if roller.is_rigid:
+        raise InvalidInputError(
+            f"`--roller` must name a roller that deforms; the {side} one is bare and rigid."
+        )
+    return side, roller
+
+
+def _depth(text: str) -> float:
+    z = read_option("--depth", text, "length")
+    if z is None or not z > 0.0:
+        raise InvalidInputError(f"`--depth` must be positive, got {text}.")
+    return z
+
+
 def _readings(problem: PatchCase, name: str) -> str:
-    name = _side(name)
+    side, roller = _deforming(problem, name)
     from rollnip.materials import shore_a_of_modulus
     from rollnip.patch import least_thickness, shore_a_reading
 
-    roller = problem.patch.upper if name == "upper" else problem.patch.lower
-    covering = shore_a_reading(roller.layers, roller.core)
-    block = shore_a_reading([], roller.materials[0])
+    with named(problem.source):
+        covering = shore_a_reading(roller.layers, roller.core)
+        block = shore_a_reading([], roller.materials[0])
     by_gent = shore_a_of_modulus(roller.materials[0].relaxed_modulus)
     note = "" if by_gent is None else _GENT.format(by_gent)
     return (
-        f"Shore A on the covering of the {name} roller: {covering:.1f}\n"
+        f"Shore A on the covering of the {side} roller: {covering:.1f}\n"
         f"Shore A on a thick block of its top layer: {block:.1f}\n"
         "A sheet of the top layer on a hard base reads within 1 point of the block from "
         f"{least_thickness(roller.materials[0]):.2g} mm on.\n{note}"

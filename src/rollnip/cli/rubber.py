@@ -82,6 +82,7 @@ def fit(
             check_target(out, (".toml",))
         if plot is not None:
             check_target(plot, (".png", ".svg", ".pdf"))
+        _require_each_once(files)
         largest = read_option("--strain", strain, "ratio")
         data = joined([read_rubber(file, test=test, sheet=sheet) for file in files])  # type: ignore[arg-type]
         if largest is not None:
@@ -98,6 +99,13 @@ def fit(
             sys.stdout.write(text)
         sys.stdout.flush()
         sys.stderr.write("".join(f"rollnip: warning: {said}\n" for said in found.warnings))
+
+
+def _require_each_once(files: list[Path]) -> None:
+    """Raise where a file is given twice: its rows would count twice."""
+    for number, file in enumerate(files):
+        if file.resolve() in [one.resolve() for one in files[:number]]:
+            raise InvalidInputError(f"{file}: must be given once; its rows would count twice.")
 
 
 def _write(found: RubberFit, text: str, out: Path | None, plot: Path | None) -> None:

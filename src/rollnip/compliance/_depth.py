@@ -132,7 +132,8 @@ def checked_depths(z: ArrayLike, bottom: float) -> FloatArray:
     if depth.ndim != 1 or not np.all((depth >= 0.0) & (depth < inf)):
         raise InvalidInputError("`z` must be one-dimensional, zero or positive and finite.")
     if np.any(depth > bottom * (1.0 + _SAME_DEPTH)):
-        raise InvalidInputError(f"`z` must not exceed the bottom {bottom!r}, got {depth.max()!r}.")
+        deepest = float(depth.max())
+        raise InvalidInputError(f"`z` must not exceed the bottom {bottom!r}, got {deepest!r}.")
     return np.asarray(np.minimum(depth, bottom))
 
 

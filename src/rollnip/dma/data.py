@@ -18,6 +18,8 @@ from rollnip.materials.shift import checked_temperature
 Array = NDArray[np.float64]
 
 _LEAST = 4  # fewest measurements accepted
+_FARTHEST = 1e30  # Hz, MPa, s; beyond it, or below its inverse, a unit was mistaken
+_HOTTEST = 1e4  # degC
 
 
 class Measured:
@@ -53,8 +55,23 @@ class Measured:
                     f"`{name}` must be positive and finite, got {values[first]:g} in "
                     f"{self.source}, {self.row(first)}."
                 )
+            self._check_size(name, values)
         checked_temperature("temperature", float(np.min(self.temperature)))
         require_finite("poisson", self.poisson)
+
+    def _check_size(self, name: str, values: Array) -> None:
+        """Raise where a value is so far from any rubber's that a unit was mistaken."""
+        if name == "temperature":
+            good, said = values <= _HOTTEST, f"at most {_HOTTEST:g} degC"
+        else:
+            good = (values >= 1.0 / _FARTHEST) & (values <= _FARTHEST)
+            said = f"between {1.0 / _FARTHEST:g} and {_FARTHEST:g}"
+        if not np.all(good):
+            first = int(np.flatnonzero(~good)[0])
+            raise InvalidInputError(
+                f"`{name}` must be {said}, got {values[first]:g} in {self.source}, "
+                f"{self.row(first)}."
+            )
 
     def row(self, index: int) -> str:
         """Return the location of a measurement in its source, as messages name it."""

@@ -98,6 +98,11 @@ class Reading:
                 raise InvalidInputError(
                     f"{self.source}: has no table {number}, it has {len(self.tables)}."
                 )
+            if numbers.count(number) > 1:
+                raise InvalidInputError(
+                    f"{self.source}: table {number} must be given once; its rows would count "
+                    f"{numbers.count(number)} times."
+                )
         tables = [self.tables[n - 1] for n in numbers] if numbers else list(self.tables)
         fault = next((table.fault for table in tables if table.fault), "")
         if fault:

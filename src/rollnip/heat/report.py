@@ -213,12 +213,12 @@ def branch_lines(branch: Branch, value: float | None, units: Units = "metric") -
         one.in_units(units)
         for one in (PARAMETERS[branch.parameter], TEMPERATURE, BALANCE_FIGURES["power"])
     )
-    yield f"  {over.axis:24s} {temperature.label:>12s} {'heat':>12s}"
+    yield f"  {over.axis:24s} {temperature.axis:>14s} {heat.axis_for('heat'):>14s}"
     for point in branch.points:
         mark = "" if point.stable else "  not stable"
         yield (
-            f"  {over.converted(point.value):<24.5g} {temperature.converted(point.hot_spot):12.4g} "
-            f"{heat.converted(point.power):12.4g}{mark}"
+            f"  {over.converted(point.value):<24.5g} {temperature.converted(point.hot_spot):14.4g} "
+            f"{heat.converted(point.power):14.4g}{mark}"
         )
     if branch.turning is None:
         yield "  no thermal runaway was met"

@@ -289,10 +289,12 @@ class _FitReader:
 
     @contextmanager
     def _placed(self, where: str) -> Iterator[None]:
-        """Prefix an input error raised inside the block with the file and the key."""
+        """Prefix an input error raised inside the block with the file and the key, once."""
         try:
             yield
         except InvalidInputError as problem:
+            if str(problem).startswith(f"{self.source}: "):
+                raise
             raise InvalidInputError(f"{self.source}: {where}: {problem}") from None
 
 

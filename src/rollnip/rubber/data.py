@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 Test = Literal["tension", "compression", "equibiaxial", "planar", "shear"]
 TESTS: tuple[Test, ...] = get_args(Test)
 _NAMES = ("test", "stretch", "strain", "stress")
+_LARGEST_STRESS = 1e12  # MPa, as moduli
+_FARTHEST = 1e3  # largest stretch; rubber breaks at some ten
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +45,8 @@ class RubberData:
     Raises
     ------
     InvalidInputError
-        where lengths differ, there is no row, a test is unknown, a number is not finite, a stretch
-        is
-        not positive, or a row of "compression" has a stretch above 1.
+        where lengths differ, there is no row, a test is unknown, a number is not finite or out of
+        any rubber's range, a stretch is not positive, or a row of "compression" has one above 1.
     """
 
     source: str
@@ -74,9 +75,18 @@ class RubberData:
             )
         if not np.isfinite(stress):
             raise InvalidInputError(f"`stress[{row}]` must be finite, got {stress!r}.")
+        if abs(stress) > _LARGEST_STRESS:
+            raise InvalidInputError(
+                f"`stress[{row}]` must be at most {_LARGEST_STRESS:g} MPa in size, got {stress!r}."
+            )
         if not np.isfinite(stretch) or (test != "shear" and stretch <= 0.0):
             raise InvalidInputError(
                 f"`stretch[{row}]` must be positive and finite, got {stretch!r}."
+            )
+        least = -_FARTHEST if test == "shear" else 1.0 / _FARTHEST
+        if not least <= stretch <= _FARTHEST:
+            raise InvalidInputError(
+                f"`stretch[{row}]` must lie between {least:g} and {_FARTHEST:g}, got {stretch!r}."
             )
         if test == "compression" and stretch > 1.0:
             raise InvalidInputError(

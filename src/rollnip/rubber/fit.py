@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import least_squares, nnls
 from scipy.stats import t as student
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_finite
 from rollnip.identification.intervals import covariance
 from rollnip.materials import Elastic, Energy, Gent, NeoHookean, Ogden, Yeoh
 from rollnip.rubber.data import Array, RubberData, Test
@@ -31,6 +31,7 @@ _EXPONENTS = (-8.0, -5.0, -3.0, -2.0, -1.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9
 _STARTS = 6
 _MOST_TERMS = 4
 _FARTHEST_EXPONENT = 40.0
+_NO_STRAIN, _NO_STRESS = 1e-9, 1e-12  # MPa; what is not larger counts as zero
 _USUAL = (0.5, 2.0)  # stretches that a cover may reach: instability within them gives a warning
 _LOADINGS: dict[Test, str] = {
     "tension": "tension or compression",
@@ -116,6 +117,7 @@ def fit_rubber(
         raise InvalidInputError(f"`law` must be one of {', '.join(LAWS)}, got {law!r}.")
     if not 1 <= terms <= _MOST_TERMS:
         raise InvalidInputError(f"`terms` must lie between 1 and {_MOST_TERMS}, got {terms!r}.")
+    require_finite("poisson", poisson)
     _require_strain_and_stress(data)
     problem = _EnergyResiduals(data)
     number = {"neo-hookean": 1, "yeoh": 3, "gent": 2, "ogden": 2 * terms}[law]
@@ -131,7 +133,7 @@ def fit_rubber(
     shear, energy = model(best)
     if not shear > 0.0:
         raise _wrong_way(data, shear)
-    material = Elastic(modulus=2.0 * (1.0 + poisson) * shear, poisson=poisson, energy=energy)
+    material = Elastic(modulus=float(2.0 * (1.0 + poisson) * shear), poisson=poisson, energy=energy)
     unstable = {test: unstable_from(energy, test) for test in _LOADINGS}
     deviation = problem.stress(shear, energy) - data.stress
     rms = {
@@ -152,8 +154,8 @@ def _require_strain_and_stress(data: RubberData) -> None:
     for test in data.tests:
         rows, rest = data.rows(test), 0.0 if test == "shear" else 1.0
         for name, is_found in (
-            ("strain", np.any(data.stretch[rows] != rest)),
-            ("stress", np.any(data.stress[rows] != 0.0)),
+            ("strain", np.any(np.abs(data.stretch[rows] - rest) > _NO_STRAIN)),
+            ("stress", np.any(np.abs(data.stress[rows]) > _NO_STRESS)),
         ):
             if not is_found:
                 raise InvalidInputError(

@@ -182,6 +182,20 @@ def test_a_full_disk_is_one_line(argument):
     assert done.stderr == "rollnip: cannot write to the standard output: No space left on device.\n"
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_messages_that_cannot_be_written_leave_the_exit_code():
+    """An exit of 1 would say that a nip did not converge."""
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [*COMMAND, "dma", "fit", "none.csv"],
+            stdout=subprocess.PIPE,
+            stderr=full,
+            text=True,
+            check=False,
+        )
+    assert (done.returncode, done.stdout) == (2, "")
+
+
 @pytest.mark.skipif(os.name == "nt", reason="closes descriptors of a child")
 @pytest.mark.parametrize(("descriptor", "code"), [(0, 2), (1, 0), (2, 0)])
 def test_closed_streams_are_empty_ones(descriptor, code):

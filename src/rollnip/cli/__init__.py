@@ -27,7 +27,13 @@ def _run() -> None:
     # Threaded BLAS makes small dense systems many times slower; set before numpy loads.
     for name, threads in ONE_THREAD.items():
         os.environ.setdefault(name, threads)
-    from rollnip.cli.console import CLOSED_PIPE, open_closed_streams, silence, write_plain_letters
+    from rollnip.cli.console import (
+        CLOSED_PIPE,
+        open_closed_streams,
+        say,
+        silence,
+        write_plain_letters,
+    )
 
     keep_freed_memory()
     open_closed_streams()
@@ -47,5 +53,5 @@ def _run() -> None:
     except OSError as error:
         silence(sys.stdout)
         reason = error.strerror or error
-        sys.stderr.write(f"rollnip: cannot write to the standard output: {reason}.\n")
+        say(f"rollnip: cannot write to the standard output: {reason}.\n")
         sys.exit(2)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,7 +9,7 @@ import typer
 from typer.core import TyperGroup
 
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, overridden, write
+from rollnip.cli.console import clear_failures, named, overridden, say, write
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.face import face
@@ -182,7 +181,7 @@ def _say_what_takes_long(problem: Case, model: Model) -> None:
     """Write a line to the standard error where finite elements may take a minute or more."""
     most = max(len(one.layers) for one in (problem.nip.upper, problem.nip.lower))
     if model.geometry == "finite" and most >= _MANY_LAYERS:
-        sys.stderr.write(
+        say(
             f'rollnip: {most} layers take long in geometry "finite": 100 up to fifteen seconds, '
             "viscoelastic ones a minute, 300 several times as long. With --geometry curved they "
             "take a second.\n"

@@ -117,9 +117,21 @@ def write(text: str) -> None:
     sys.stdout.flush()
 
 
+def say(text: str) -> None:
+    """Write a text to the standard error, at once; where that cannot be written, nothing.
+
+    The exit code and the standard output then still say what became of the command.
+    """
+    try:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+    except OSError:
+        silence(sys.stderr)
+
+
 def leave(message: str, code: int) -> None:
     """Say why on the standard error, and leave with a code."""
-    sys.stderr.write(f"rollnip: {message}\n")
+    say(f"rollnip: {message}\n")
     raise typer.Exit(code) from None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import asdict
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rollnip._errors import InvalidInputError
-from rollnip.cli.console import clear_failures, named, overridden, write
+from rollnip.cli.console import clear_failures, named, overridden, say, write
 from rollnip.cli.options import Json, Tolerance
 
 if TYPE_CHECKING:
@@ -54,7 +53,7 @@ def feed(
             changes = feed_sensitivity(problem.nip, model, progress=progress)
         for side in SIDES:
             for one in energies_left_out(side, getattr(problem.nip, side)):
-                sys.stderr.write(f"rollnip: warning: {one.text}\n")
+                say(f"rollnip: warning: {one.text}\n")
         geared = is_geared(problem.nip)
         write((_as_json(changes) if json else _as_text(changes, geared=geared)) + "\n")
     if not all(one.converged for one in changes):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import signal
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
+
+from rollnip.cli.console import say
 
 if TYPE_CHECKING:
     from rollnip.sweeps import Together
@@ -29,7 +30,7 @@ def interrupts_told(store: Store, total: int | None = None) -> Iterator[Interrup
         try:
             yield interrupts
         except KeyboardInterrupt:
-            sys.stderr.write(f"rollnip: interrupted{kept(store, total, '; ')}.\n")
+            say(f"rollnip: interrupted{kept(store, total, '; ')}.\n")
             raise typer.Exit(130) from None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
@@ -10,7 +9,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, named_by, overridden, write
+from rollnip.cli.console import clear_failures, named, named_by, overridden, say, write
 from rollnip.cli.options import Force, Geometry
 
 if TYPE_CHECKING:
@@ -273,7 +272,7 @@ def _solved(case: str, geometry: str | None) -> tuple[Solution, str]:
 
 def _leave(solution: Solution) -> None:
     if not solution.converged:
-        sys.stderr.write(f"rollnip: {solution.status}\n")
+        say(f"rollnip: {solution.status}\n")
         raise typer.Exit(1)
 
 

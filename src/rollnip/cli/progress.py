@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
@@ -18,6 +17,8 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 from rich.text import Text
+
+from rollnip.cli.console import say
 
 _LINES = 60.0  # s, from one line of a log to the next
 _OF_LATE = 60.0  # s, over which the rate is taken
@@ -52,8 +53,7 @@ class Lines:
         now = monotonic()
         if now >= self._next:
             self._next = now + _LINES
-            sys.stderr.write(f"rollnip: {self._line(now - self._begun)}\n")
-            sys.stderr.flush()
+            say(f"rollnip: {self._line(now - self._begun)}\n")
 
     def _line(self, seconds: float) -> str:
         rate = self._done / seconds

@@ -153,6 +153,8 @@ def test_wrong_input_is_one_line_and_exit_2(tmp_path, monkeypatch, arguments, hi
         (("simulate", CASE, "--out", "a.csv", "--bursts", "0"), "--bursts: `bursts`"),
         (("simulate", CASE, "--out", "a.csv", "--beam-angle", "400 deg"), "--beam-angle: "),
         (("simulate", CASE, "--out", "a.csv", "--sample-rate", "40 kHz"), "--sample-rate: "),
+        (("simulate", CASE, "--out", "a.csv", "--half-width", "100 mm"), "--half-width: `half"),
+        (("simulate", CASE, "--out", "a.csv", "--snr", "1e308"), "--snr: `snr` must be at most"),
         (("estimate", "means.csv", "--confidence", "120%"), "`--confidence` must be 50 % or more"),
         (("compare", CASE, "means.csv", "--confidence", "49 %"), "`--confidence` must be 50 %"),
     ],

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 _MOST = 2000  # largest number of positions
 _LONGEST = 20_000_000  # largest number of samples in a record
+_CLEAREST = 1e12  # largest ratio of powers
 _SHOWN = 0.8  # length scanned on either side of the contact, in nip widths
 
 
@@ -45,6 +46,8 @@ class Seeding:
         require_not_negative("spread", self.spread)
         if self.spread > 0.2:
             raise InvalidInputError(f"`spread` must be at most 0.2, got {self.spread!r}.")
+        if self.snr > _CLEAREST:
+            raise InvalidInputError(f"`snr` must be at most {_CLEAREST:g}, got {self.snr!r}.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +170,11 @@ def _evenly(solution: Solution, profile: SpeedProfile, at: Instrument, count: in
     if not 2 <= count <= _MOST:
         raise InvalidInputError(f"`positions` must lie between 2 and {_MOST}, got {count}.")
     first, last = profile.span(at.envelope_width)
+    if not first < last:
+        raise InvalidInputError(
+            "`half_width` must be small enough for the volume to fit between the ends of the "
+            f"solution, {profile.x[0]:.4g} and {profile.x[-1]:.4g} mm, got {at.half_width:g} mm."
+        )
     side = _SHOWN * solution.nip_width
     contact = solution.contact
     low, high = contact[0][0] - side, contact[-1][1] + side

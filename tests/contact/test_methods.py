@@ -57,6 +57,23 @@ def test_dissimilar_half_spaces(half_spaces, mesh, within, unit_load, friction, 
     assert_alike(problem, safe, AT_ONCE.solve(problem, start), 1e-7)
 
 
+class InVain(Safeguarded):
+    """An interior point that takes seven steps and does not settle."""
+
+    def _by_interior_point(self, problem):
+        states = np.ones(problem.x.size, dtype=np.int8)
+        found = CoupledActiveSet(max_steps=1).solve(problem, states)
+        return replace(found, steps=7, settled=False)
+
+
+def test_steps_of_both_ways_count_once(half_spaces, mesh, unit_load):
+    problem = driven(half_spaces, mesh(30, 1.05), unit_load, 0.5, 0.8)
+    start = np.ones(problem.x.size, dtype=np.int8)
+    found = InVain(fast=CoupledActiveSet(max_steps=2)).solve(problem, start)
+    assert not found.settled
+    assert found.steps == 2 + 7
+
+
 def random_states(seed, n):
     return np.random.default_rng(seed).integers(0, 4, n).astype(np.int8)
 

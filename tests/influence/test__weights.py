@@ -61,8 +61,7 @@ def test_head(y):
         iy = mp.mpc(0, y)
         expected = [
             complex(
-                mp.factorial(r)
-                * mp.fsum(iy**n / (n * mp.factorial(n + r)) for n in range(1, 200))
+                mp.factorial(r) * mp.fsum(iy**n / (n * mp.factorial(n + r)) for n in range(1, 200))
             )
             for r in range(3)
         ]

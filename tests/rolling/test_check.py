@@ -12,7 +12,6 @@ from rollnip.rolling import fields_at
 from rollnip.rolling.check import residual
 from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.surfaces import traction_work
 
 NAMES = ["II driven, curved", "II corrected", "Carter", "idler", "viscoelastic half-space"]
 
@@ -196,15 +195,6 @@ def test_slip_velocity_opposes_the_shear(case, solved):
     scale = 100.0 * max(abs(solution.creepage), 1e-4)
     bound = solution.nip.friction * solution.peak_pressure
     assert np.all((fields.shear * velocity)[inside] <= 0.03 * scale * bound)
-
-
-def test_traction_work():
-    """int t du of tractions linear between nodes and displacements linear on elements."""
-    nodes = np.array([0.0, 1.0, 1.5, 3.0, 4.0])
-    traction = np.array([2.0, 1.0, 4.0])
-    displacement = nodes[1:] ** 2
-    expected = 1.5 * 1.25 + 2.5 * 6.75 + 2.0 * 7.0
-    assert traction_work(traction, displacement) == pytest.approx(expected, rel=1e-14)
 
 
 def test_slip_left_out_that_matters_is_not_overlooked():

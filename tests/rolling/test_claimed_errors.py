@@ -3,6 +3,7 @@
 import importlib
 from dataclasses import replace
 from math import isnan
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -164,6 +165,20 @@ def test_gripped_peaks_at_an_edge_are_as_uncertain_as_was_found():
     The peaks were 1.2316, 1.2899, 1.3084 and 1.3138 MPa: 6.4 % below those of other loads at most.
     """
     assert 6.4e-2 <= claimed_errors.SHARE_OF_EDGE_PEAK["gripped"] < 12.8e-2
+
+
+@pytest.mark.parametrize(("highest", "is_beside"), [(0.09, True), (0.11, False), (9.95, True)])
+def test_a_peak_is_beside_an_edge_that_is_nearer_than_the_skin_is_thick(highest, is_beside):
+    skin = rn.Layer(0.1, rn.Elastic(modulus=50.0, poisson=0.45))
+    nip = replace(NIP, upper=replace(NIP.upper, layers=(skin, *NIP.upper.layers)))
+    x = np.array([0.05, 0.09, 0.11, 5.0, 9.8, 9.95])
+    final = SimpleNamespace(
+        zones=(SimpleNamespace(start=0.0, stop=10.0),),
+        nodes=np.concatenate([[0.0], x, [10.0]]),
+        x=x,
+        pressure=np.where(x == highest, 2.0, 1.0),
+    )
+    assert claimed_errors._peaks_within_skin_of_edge(nip, final) == is_beside
 
 
 @pytest.mark.parametrize("geometry", ["curved", "second", "finite"])

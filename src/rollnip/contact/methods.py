@@ -73,9 +73,8 @@ class Safeguarded:
             slow = self._by_interior_point(problem)
         except np.linalg.LinAlgError:
             slow = _unsolved(problem)
-        if not slow.settled and np.any(solution.pressure):
-            slow = solution
-        return replace(slow, steps=solution.steps + slow.steps)
+        is_better = slow.settled or not np.any(solution.pressure)
+        return replace(slow if is_better else solution, steps=solution.steps + slow.steps)
 
     def _by_interior_point(self, problem: ContactProblem) -> ContactState:
         """Return the interior-point solution, settled if its own solution implies its states."""

@@ -239,7 +239,7 @@ def _peaks_within_skin_of_edge(nip: Nip, final: MeshSolution) -> bool:
     """
     if not final.zones:
         return False
-    peak = final.nodes[int(np.argmax(final.pressure))]
+    peak = final.x[int(np.argmax(final.pressure))]
     start, stop = final.zones[0].start, final.zones[-1].stop
     to_edge = min(peak - start, stop - peak)
     return bool(to_edge < min(skin_thickness(nip), 0.25 * (stop - start)))

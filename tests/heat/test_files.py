@@ -127,6 +127,16 @@ def test_a_case_is_written_as_python():
     ("old", "new", "sentence"),
     [
         ('ambient = "23 degC"', 'ambient = "-300 degC"', "heat.ambient: must be above absolute"),
+        (
+            'ambient = "23 degC"',
+            "ambeint = 23",
+            'heat.ambeint: is not a known key; did you mean "am',
+        ),
+        (
+            "[lower.heat]\nfilm",
+            "[lower.heat]\nflim",
+            "lower.heat.flim: is not a known key; did you",
+        ),
         ('[lower.heat]\nfilm = "50 W/(m2 K)"', "", "lower.heat: is missing; add a table"),
         ('[heat]\nambient = "23 degC"', "", "upper.heat: must stand beside a table"),
         ('"natural-rubber-filled"', '"cork"', "materials.rubber.thermal: must be one of natural"),

@@ -72,6 +72,15 @@ def test_stresses_are_those_of_other_elements(row):
     assert not small.is_finite
 
 
+def test_a_rigid_core_holds_the_bond():
+    """Left are the linear extrapolation from the Gauss lines and the errors of the elements."""
+    solution = solved()
+    x = np.linspace(-12.0, 12.0, 49)
+    field = solution.interior("upper", [0.0, 2.0], x)
+    for part in (field.u_x, field.u_z):
+        assert np.abs(part[1]).max() < 0.01 * np.abs(part[0]).max()
+
+
 def test_the_bond_carries_load_and_torque():
     """Stresses of the bond add up to the load and to the torque of the axle."""
     solution = solved()

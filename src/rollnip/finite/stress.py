@@ -83,9 +83,10 @@ def element_fields(
     surface x itself; beyond ``near`` they grow with the angle. ``rows`` are those of elements.
 
     Fields (parts, columns, rows, points), the parts named by `PARTS`: displacements along and into
-    the roller, defined as at its surface [mm]; stresses [MPa]; stretches along and across the
-    deformed line of constant depth, less 1, and half the shear angle; strain energy per undeformed
-    volume, with half the product of relaxing stress and strain [MPa].
+    the roller [mm], u_x the turn about the axis times the undeformed radius; stresses [MPa];
+    stretches along and across the deformed line of constant depth, less 1, and half the shear
+    angle; strain energy per undeformed volume, with half the product of relaxing stress and strain
+    [MPa].
     """
     strip, relaxing = body.strip, body.relaxing_stress(state)
     law = _ElementMaterials.of(strip)
@@ -153,12 +154,13 @@ def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Ar
 def _places(
     curvature: float, arc: Array, depth: Array, moved: Array, near: float
 ) -> tuple[Array, ...]:
-    """Return present places, u_x and u_z at depth, defined as at the surface of the roller."""
+    """Return present places, and displacements along and into the roller, zero at a rigid core."""
     shrink = 1.0 - curvature * depth
     x, y = on_circle(arc, curvature)
     x, y = x * shrink + moved[..., 0], depth + y * shrink + moved[..., 1]
     place = present_place(x, y, depth, (curvature, near))
-    return place, (place - arc) * shrink, below_radius(x, y, curvature) - depth
+    now = x if curvature == 0.0 else np.arctan2(curvature * x, 1.0 - curvature * y) / curvature
+    return place, (now - arc) * shrink, below_radius(x, y, curvature) - depth
 
 
 def present_place(x: Array, y: Array, depth: Array, circle: tuple[float, float]) -> Array:

@@ -42,8 +42,9 @@ class InteriorField(Sealed):
     At finite strain (``is_finite``) z is the undeformed depth, and x is the place where the
     material of that depth is now: its abscissa over 1 - z/R. Stresses are Cauchy stresses. Their
     components are along (x) and across (z) the deformed line of that depth: at the surface they are
-    the tractions, at an interface or a bond the stresses that it carries. e_xx and e_zz are the
-    stretches along and across that line minus 1, e_xz is half the shear angle.
+    the tractions, at an interface or a bond the stresses that it carries. u_x is the turn of the
+    material about the axis times its undeformed radius, u_z its way towards the axis. e_xx and e_zz
+    are the stretches along and across that line minus 1, e_xz is half the shear angle.
 
     Attributes
     ----------

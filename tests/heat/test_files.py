@@ -224,6 +224,11 @@ def test_files_and_pictures(case_file, tmp_path):
     with xr.open_dataset(out, engine="h5netcdf") as nip:
         assert nip.attrs["heat_converged"] == 1
         assert nip.attrs["heat_status"].startswith("Steady")
+        assert float(nip["heat_stable"]) == 1.0
+        assert abs(float(nip["heat_balance"])) < 1e-4
+        assert float(nip["heat_warm_nip_width"]) == float(nip["nip_width"])
+        assert float(nip["heat_cold_nip_width"]) > 0.0  # no shift: the same nip
+        assert float(nip["heat_error_temperature"]) < 0.1
         parts = [xr.open_dataset(out, group=side, engine="h5netcdf") for side in ("upper", "lower")]
         assert float(nip["heat_power"]) == pytest.approx(sum(float(one["power"]) for one in parts))
     with xr.open_dataset(out, group="warm_up", engine="h5netcdf") as course:

@@ -114,6 +114,8 @@ def test_summary_and_dataset_have_it(pulled):
     assert float(data["sheet_tension_max"]) == pulled.sheet.tension_max
     assert data["sheet_tension"].dims == ("x",)
     assert data.sizes["lower_zone"] == len(pulled.sheet.zones_lower)
+    assert float(data["sheet_bending_length"]) == pulled.sheet.bending_length
+    assert bool(data["sheet_bends"]) is pulled.sheet.bends
 
 
 def test_grip_is_read_back_from_netcdf(pulled, tmp_path):

@@ -127,6 +127,10 @@ def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
             values = _floats(sheet["profiles"][name], size)
             found[f"sheet_{name}"] = ("x", values, curve.described)
     found |= _grip(sheet["grip"])
+    length = {"units": "mm", "long_name": "length over which the bending stiffness acts"}
+    bends = {"units": "1", "long_name": "1 where the bending stiffness is included, else 0"}
+    found["sheet_bending_length"] = _scalar(sheet["bending_length"], length)
+    found["sheet_bends"] = ((), int(sheet["bends"]), bends)
     lower = _zones(sheet["zones_lower"])
     return found | {
         f"lower_{name}": (f"lower_{dims[0]}", *rest) for name, (dims, *rest) in _tupled(lower)

@@ -12,7 +12,8 @@ import rollnip as rn
 from rollnip.finite import columns
 from rollnip.model import Model
 from rollnip.rolling import free_ends
-from rollnip.solver import _too_slippery, _too_thin, solve
+from rollnip.solver import solve
+from rollnip.verdict import too_slippery, too_thin
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 NIP = rn.Nip(
@@ -87,13 +88,40 @@ def test_what_to_do_on_failure_is_one_of_two():
         solve(NIP, on_failure="x")
 
 
-@pytest.mark.parametrize("torque", [12.0, 40.0])
-def test_a_torque_beyond_friction_does_not_settle(torque):
-    """What traction it takes hangs on a solution that there is not: it is told as a guess."""
-    returned = solve(replace(NIP, tangential=rn.Torque(torque)))
-    assert not returned.converged
-    assert "the nip may need a traction of about" in returned.status
-    assert "N/mm (friction * load); lower the traction or torque" in returned.status
+@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
+@pytest.mark.parametrize("share", [-3.0, -1.03, 1.03, 3.0])
+def test_a_torque_beyond_friction_is_refused(geometry, share):
+    """On a bare rigid roller the torque is the traction times its radius, whatever the contact."""
+    limit = 0.5 * 0.74
+    nip = replace(NIP, tangential=rn.Torque(-share * limit * 25.0))
+    with pytest.raises(
+        rn.InvalidInputError, match=r"^`torque_lower` asks for a traction of"
+    ) as said:
+        solve(nip, Model(geometry=geometry))
+    found = float(str(said.value).split("traction of ")[1].split()[0])
+    assert found == pytest.approx(share * limit, rel=1e-5)
+
+
+@pytest.mark.parametrize("share", [1.02, 2.0])
+@pytest.mark.parametrize("name", ["traction", "torque_lower"])
+def test_a_traction_beyond_friction_is_refused_under_a_given_approach(name, share):
+    """The load is that of rollers that slide, where the traction is friction times load."""
+    nip, linear = replace(NIP, normal=rn.Approach(0.2)), Model(geometry="linear")
+    limit = solve(replace(nip, tangential=rn.Creepage(1.0)), linear).traction
+    traction = share * limit
+    control = rn.Traction(traction) if name == "traction" else rn.Torque(-25.0 * traction)
+    with pytest.raises(rn.InvalidInputError, match=rf"^`{name}` asks for a traction of"):
+        solve(replace(nip, tangential=control), linear)
+
+
+def test_a_torque_that_the_pressure_balances_is_none_beyond_friction():
+    """A tyre with losses takes a torque on its axle, several times what friction passes on."""
+    tyre = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
+    wheel = rn.Roller(radius=25.0, layers=[rn.Layer(2.7, tyre)])
+    nip = replace(NIP, lower=wheel, speed=100.0, friction=3e-3)
+    torque = solve(nip, Model(geometry="linear")).torque_lower
+    assert torque / 25.0 > 3.0 * nip.friction * 0.74
+    assert solve(replace(nip, tangential=rn.Torque(torque)), Model(geometry="linear")).converged
 
 
 def test_failure_is_returned_or_raised():
@@ -169,10 +197,10 @@ def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction, m
     real = replace(RUBBER, poisson=0.5 - RUBBER.modulus / (6.0 * 2000.0))
     firm = rn.Roller(radius=50.0, layers=[rn.Layer(5e-5, real)])
     assert solve(replace(nip, upper=firm), Model(geometry="linear")).converged
-    assert _too_thin(nip, linear, found.final)
-    assert not _too_thin(replace(nip, upper=firm), linear, found.final)
+    assert too_thin(nip, linear, found.final)
+    assert not too_thin(replace(nip, upper=firm), linear, found.final)
     thick = rn.Roller(radius=50.0, layers=[rn.Layer(1e-2, RUBBER)])
-    assert not _too_thin(replace(nip, upper=thick), linear, found.final)
+    assert not too_thin(replace(nip, upper=thick), linear, found.final)
 
 
 def test_columns_too_long_for_a_film_are_claimed_and_said(monkeypatch):
@@ -212,7 +240,7 @@ def test_so_little_friction_that_none_helps_says_so_and_it_is_true(poisson):
     assert little.converged
     for name in ("approach", "nip_width", "peak_pressure"):
         assert getattr(little, name) == pytest.approx(getattr(nothing, name), rel=1e-3)
-    assert not _too_slippery(replace(nip, friction=0.3), model)
+    assert not too_slippery(replace(nip, friction=0.3), model)
 
 
 def test_second_order_terms_that_run_away_on_the_way_leave_no_warning_of_numpy():

@@ -17,8 +17,9 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
+from math import copysign
 from time import perf_counter
-from typing import Literal
+from typing import Literal, NoReturn
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError, require_instanc
 from rollnip.all_orders import Nearby, refine_all_orders, with_second_order
 from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
-from rollnip.nip import LineLoad, Nip, Torque
+from rollnip.nip import Creepage, LineLoad, Nip, Torque
 from rollnip.no_nip import impossible, is_too_deep
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
@@ -36,30 +37,16 @@ from rollnip.rolling import (
     PairKernels,
     half_width_guess,
     has_grip,
-    long_columns,
     pair_kernels,
     refine,
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import StrainSizes, second_share, validity_reservations
-from rollnip.verdict import ACCEPT_IT, verdict, violated
+from rollnip.verdict import ACCEPT_IT, too_slippery, too_thin, verdict, violated
 
-# A traction above this multiple of a limit exceeds it even where the limit is known only roughly.
-_CLEARLY = 1.5
-# Thickness of a covering over half the nip width, below which rubber gives way by its change of
-# volume, too, and takes fewer elements with it.
-_THIN = 0.025
-_LONG_COLUMNS = (
-    "The columns of finite elements are too long for so thin a covering: take `geometry = "
-    '"curved"`, which needs none.'
-)
+_SLIDING = 1.9  # creepage at which rollers slide on each other, next to the 2 that none exceeds
 _DIVERGED = 0.1  # last relative change of second-order terms from which they count as diverged
-# The advice that `rollnip.volume` gives, too.
-_VOLUME = (
-    " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
-    "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
-)
 
 
 def solve(
@@ -175,6 +162,8 @@ def _solve_smooth(
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
+    if not final.settled and _may_spin(nip, final):
+        _require_less_than_sliding(nip, model, cache, final)
     converged, status = _check(nip, model, final)
     strains = StrainSizes.of(nip, model, final)
     return SmoothSolution(
@@ -278,12 +267,38 @@ def _require_grip(nip: Nip, final: MeshSolution) -> None:
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
         return
-    if isinstance(nip.tangential, Torque) and not final.settled:
-        return  # the traction that it takes is known only roughly; `_check` says how large it is
+    is_known = isinstance(nip.normal, LineLoad) and not isinstance(nip.tangential, Torque)
+    if not (final.settled or is_known):
+        return  # traction or load are known only roughly; see `_require_less_than_sliding`
     limit = nip.friction * final.figures.load
-    given = isinstance(nip.normal, LineLoad)
-    if not given and not final.settled and abs(wanted) < _CLEARLY * limit:
-        return  # the load, and so the limit, is known only roughly
+    _refuse_traction(nip, wanted, limit)
+
+
+def _require_less_than_sliding(
+    nip: Nip, model: Model, cache: KernelCache, final: MeshSolution
+) -> None:
+    """Raise InvalidInputError where not even rollers that slide on each other pass the traction on.
+
+    Their load stands for that of a given approach. A torque over the radius differs from its
+    traction by the moment of the pressure alone, for which theirs stands; for finite strain they
+    slide in "curved".
+    """
+    wanted = final.problem.control.traction
+    assert wanted is not None  # `_may_spin`
+    sliding = replace(nip, tangential=Creepage(copysign(_SLIDING, wanted)))
+    simple = replace(model, geometry="curved") if model.geometry in FINITE else model
+    slid = _solve_smooth(sliding, simple, cache, None, perf_counter())
+    if isinstance(nip.tangential, Torque):
+        assert slid.torque_lower is not None  # no plane: a torque is given
+        missing = slid.torque_lower - nip.tangential.torque_lower
+        wanted = slid.traction + missing * nip.lower.curvature
+    limit = nip.friction * slid.load
+    if slid.converged and abs(wanted) >= limit:
+        _refuse_traction(nip, wanted, limit)
+
+
+def _refuse_traction(nip: Nip, wanted: float, limit: float) -> NoReturn:
+    """Raise InvalidInputError for a traction that friction cannot carry [N/mm]."""
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
         f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "
@@ -299,7 +314,7 @@ def _check(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
     """
     is_verified, status = _first_failure(nip, model, final)
     if not is_verified:
-        status += _too_thin(nip, model, final) + _too_slippery(nip, model)
+        status += too_thin(nip, model, final) + too_slippery(nip, model)
     return is_verified, status
 
 
@@ -350,38 +365,6 @@ def _may_spin(nip: Nip, final: MeshSolution) -> bool:
     wanted = final.problem.control.traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
-
-
-def _too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
-    """Return a sentence on a covering so thin that it cannot only flow sideways; "" if none.
-
-    In "finite" it says, too, where columns of elements are too long for the tolerance.
-    """
-    half, out = 0.5 * final.figures.nip_width, ""
-    if model.geometry == "finite" and long_columns(nip, final) > model.tolerance:
-        out = f" {_LONG_COLUMNS}"
-    for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
-        if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
-            continue
-        if all(layer.material.poisson == 0.5 for layer in roller.layers):
-            return out + (
-                f" The covering of the {name} roller is {half / roller.coating_thickness:.0f} "
-                f"times thinner than half the nip width.{_VOLUME}"
-            )
-    return out
-
-
-def _too_slippery(nip: Nip, model: Model) -> str:
-    """Return a sentence on friction smaller than the tolerance; "" where it is larger.
-
-    The zones of stick are then about as short, relative to the nip width, as the friction is small.
-    """
-    if not 0.0 < nip.friction <= model.tolerance:
-        return ""
-    return (
-        " So little friction hardly changes approach, nip width and pressure: take `friction = 0`, "
-        "which has no creepage."
-    )
 
 
 @cache  # reading it from the installed files takes as long as solving on one mesh

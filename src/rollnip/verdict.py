@@ -10,7 +10,7 @@ from math import inf, isnan
 
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling import MeshSolution, model_shares, relative_claims
+from rollnip.rolling import MeshSolution, long_columns, model_shares, relative_claims
 from rollnip.rolling.changes import ROUNDING
 
 FINEST_OF_FINITE = Model().tolerance
@@ -24,6 +24,18 @@ _LEFT_BY: Mapping[Geometry, str] = {
 }
 ACCEPT_IT = "accept it with a larger tolerance"
 """The advice where no finer mesh or grid is available."""
+# Thickness of a covering over half the nip width, below which rubber gives way by its change of
+# volume, too, and takes fewer elements with it.
+_THIN = 0.025
+_LONG_COLUMNS = (
+    "The columns of finite elements are too long for so thin a covering: take `geometry = "
+    '"curved"`, which needs none.'
+)
+# The advice that `rollnip.volume` gives, too.
+_VOLUME = (
+    " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
+    "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
+)
 WORDS: Mapping[str, str] = {
     "approach": "approach",
     "load": "load",
@@ -112,3 +124,35 @@ def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
     words = {WORDS.get(name, name): 100.0 * share for name, share in larger.items()}
     named = ", ".join(f"{word} {share:.2g} %" for word, share in words.items())
     return f", and what {by} open ({named})"
+
+
+def too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
+    """Return a sentence on a covering so thin that it cannot only flow sideways; "" if none.
+
+    In "finite" it says, too, where columns of elements are too long for the tolerance.
+    """
+    half, out = 0.5 * final.figures.nip_width, ""
+    if model.geometry == "finite" and long_columns(nip, final) > model.tolerance:
+        out = f" {_LONG_COLUMNS}"
+    for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
+            continue
+        if all(layer.material.poisson == 0.5 for layer in roller.layers):
+            return out + (
+                f" The covering of the {name} roller is {half / roller.coating_thickness:.0f} "
+                f"times thinner than half the nip width.{_VOLUME}"
+            )
+    return out
+
+
+def too_slippery(nip: Nip, model: Model) -> str:
+    """Return a sentence on friction smaller than the tolerance; "" where it is larger.
+
+    The zones of stick are then about as short, relative to the nip width, as the friction is small.
+    """
+    if not 0.0 < nip.friction <= model.tolerance:
+        return ""
+    return (
+        " So little friction hardly changes approach, nip width and pressure: take `friction = 0`, "
+        "which has no creepage."
+    )

@@ -40,6 +40,41 @@ def test_solve_without_interfaces_leaves_out_that_key_alone(client, case):
     assert rest == whole
 
 
+@pytest.mark.slow  # a face and a heat balance, each here and by the command
+@pytest.mark.parametrize("name", ["face", "heat"])
+def test_solve_holds_face_and_heat_as_the_command_does(client, case, name):
+    if name == "face":
+        case["face"] = {"length": "300 mm"}
+        case["upper"]["shaft"] = {"bearing_distance": "400 mm"}
+    else:
+        case["nip"]["speed"] = "1 m/s"
+        case["heat"] = {"ambient": "23 degC"}
+        rubber = case["upper"]["layers"][0]["material"]
+        rubber |= {"thermal": "natural-rubber-filled"}
+        for side in ("upper", "lower"):
+            case[side]["heat"] = {"film": "30 W/(m2 K)"}
+    case["model"] = {"geometry": "linear"}
+    answer = client.post("/api/solve", json=case).json()
+    command = CliRunner().invoke(app, ["solve", "-", "--json"], input=json.dumps(case))
+    expected = json.loads(command.stdout)
+    assert answer[name].keys() == expected[name].keys()
+    assert (answer["case"], answer["case_hash"]) == (expected["case"], expected["case_hash"])
+    rest = client.post("/api/solve?whole=false", json=case).json()
+    assert set(answer) - set(rest) == {name}
+
+
+def test_solve_takes_a_patch_as_the_command_does(client):
+    case = {
+        "nip": {"load": "100 N", "friction": 0.5},
+        "patch": {"grid": [16, 16]},
+        "upper": {"radius": 50, "lateral_radius": 50},
+        "lower": {"radius": 50, "core": {"model": "elastic", "modulus": 500, "poisson": 0.3}},
+    }
+    answer = client.post("/api/solve", json=case)
+    assert answer.status_code == 200
+    assert answer.json() == client.post("/api/patch", json=case).json()
+
+
 def test_geometry_and_title_are_those_of_the_case(post, case):
     del case["model"]
     assert post("solve", case)["geometry"] in ("finite", "curved")

@@ -53,9 +53,13 @@ class Desk:
             WorkerTask(name=name, body=body, seconds=self._limits.solve_seconds)
         )
 
-    async def solve(self, case: Mapping[str, Any], *, interfaces: bool) -> Reply:
-        """Solve a case. Raises RefusedError."""
-        return await self.task("solve", {"case": case, "interfaces": interfaces})
+    async def solve(self, case: Mapping[str, Any], *, interfaces: bool, whole: bool) -> Reply:
+        """Solve a case, with its face and heat where it is to be whole. Raises RefusedError."""
+        if case.get("patch") is not None:
+            return await self.patch(case)
+        is_long = whole and any(case.get(name) is not None for name in ("face", "heat"))
+        body = {"case": case, "interfaces": interfaces, "whole": is_long}
+        return await (self._long_answer if is_long else self.task)("solve", body)
 
     async def interior(self, body: InteriorBody) -> Reply:
         """The field inside a roller. Raises RefusedError."""

@@ -56,15 +56,22 @@ class Faces:
         self._laws: Kept[NipLaw | SheetLaw] = Kept(_KEPT)
         self._rows = NipRows(kernels, most=_MOST_ROWS)
 
-    def face(self, case: Case) -> dict[str, Any]:
-        """Return the key "face" of the result of a case; with "crown", radii over those nominal.
+    def solution(self, case: Case) -> FaceSolution:
+        """Solve a case along its face.
 
         Raises
         ------
         CaseFileError
             where the case has no face, or something along it does not fit; says at which key.
         """
-        solution = self._solved(case.nip, face_of(case), case)
+        return self._solved(case.nip, face_of(case), case)
+
+    def face(self, case: Case) -> dict[str, Any]:
+        """Return the key "face" of the result of a case; with "crown", radii over those nominal.
+
+        Raises CaseFileError as `solution`.
+        """
+        solution = self.solution(case)
         rollers = {"upper": case.nip.upper, "lower": case.nip.lower}
         crowns = {name: _crown(one, solution).tolist() for name, one in rollers.items()}
         return face_dict(solution) | {"crown": crowns}

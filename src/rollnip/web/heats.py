@@ -31,20 +31,31 @@ class Heats:
         self._kernels = kernels
         self._kept: Kept[HeatSolution] = Kept(_KEPT)
 
-    def steady(self, case: Case) -> dict[str, Any]:
-        """Return the key "heat" of the result of a case.
+    def solution(self, case: Case) -> HeatSolution:
+        """Solve a case and the temperatures of its rollers.
 
         Raises
         ------
         CaseFileError
             where the case has no table ``heat``, or something in it does not fit.
         """
-        return heat_dict(self._steady(case))
+        key = case_hash(case)
+        if (kept := self._kept.get(key)) is not None:
+            return kept
+        try:
+            found = solve_heat(case.nip, _heat_of(case), case.model, cache=self._kernels)
+        except InvalidInputError as error:
+            raise _placed(error) from None
+        return self._kept.put(key, found)
+
+    def steady(self, case: Case) -> dict[str, Any]:
+        """Return the key "heat" of the result of a case. Raises CaseFileError as `solution`."""
+        return heat_dict(self.solution(case))
 
     def warm_up(self, case: Case) -> dict[str, Any]:
         """Return the key "warm_up": temperatures over time, from the start of the case."""
         heat = _heat_of(case)
-        steady = self._steady(case)
+        steady = self.solution(case)
         try:
             course = warm_up(case.nip, heat, case.model, steady=steady, cache=self._kernels)
         except InvalidInputError as error:
@@ -72,16 +83,6 @@ class Heats:
         except InvalidInputError as error:
             raise _placed(error) from None
         return branch_dict(branch) | {"value": value, "margin": branch.margin(value)}
-
-    def _steady(self, case: Case) -> HeatSolution:
-        key = case_hash(case)
-        if (kept := self._kept.get(key)) is not None:
-            return kept
-        try:
-            found = solve_heat(case.nip, _heat_of(case), case.model, cache=self._kernels)
-        except InvalidInputError as error:
-            raise _placed(error) from None
-        return self._kept.put(key, found)
 
 
 def _heat_of(case: Case) -> HeatBalance:

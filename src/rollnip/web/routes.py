@@ -62,9 +62,13 @@ async def solve(
     interfaces: Annotated[
         bool, Query(description="With stresses on interfaces, which may take longer than the rest.")
     ] = True,
+    whole: Annotated[
+        bool, Query(description="With `face` and `heat` where the case has them; both take long.")
+    ] = True,
 ) -> Response:
     """Solve one nip: the tree of `rollnip solve --json`; the case's hash in X-Rollnip-Case."""
-    return await _answer(request, _desk(request).solve(case, interfaces=interfaces))
+    answer = _desk(request).solve(case, interfaces=interfaces, whole=whole)
+    return await _answer(request, answer)
 
 
 @posts.post("/surfaces", response_model=dict[str, Any])

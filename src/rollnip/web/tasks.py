@@ -20,6 +20,7 @@ from rollnip.io import (
     Case,
     base_tree,
     case_hash,
+    case_parts,
     case_python,
     case_toml,
     dimension_at,
@@ -122,6 +123,10 @@ class Tasks:
     def _solve(self, body: Body) -> Reply:
         case = self._read(body["case"])
         tree = result_dict(self._solution(case), interfaces=body["interfaces"])
+        if body.get("whole"):
+            along = None if case.face is None else self._faces.solution(case)
+            warm = None if case.heat is None else self._heats.solution(case)
+            tree |= case_parts(along, warm)
         tree["title"] = case.nip.title  # the hash leaves it out, so a kept solution has another
         return Reply(200, json_bytes(tree), case_hash(case))
 

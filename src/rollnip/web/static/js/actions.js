@@ -182,7 +182,7 @@ export class Actions extends Opening {
   async saveJson() {
     await this.attempt(say("json.failed"), async () => {
       const { tree, known, face, heat } = this.answer;
-      const result = await post("/api/solve", tree);
+      const result = await post("/api/solve?whole=false", tree);
       const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}), ...(heat ? { heat } : {}) }, null, 1);
       download(fileName(tree, "json"), text, "application/json");
     });

@@ -31,8 +31,11 @@ function known(text) {
   return inLanguage(text) ?? text;
 }
 
-/** Where a nip is solved; stresses on interfaces, which cost more than the rest, are not shown here. */
-export const SOLVE = "/api/solve?interfaces=false";
+/**
+ * Where a nip is solved. Stresses on interfaces, which cost more than the rest, are not shown here, and the page asks
+ * for face and heat by themselves.
+ */
+export const SOLVE = "/api/solve?interfaces=false&whole=false";
 
 const RETRIES = 4;
 const WAIT = 400; // ms before asking a busy server again

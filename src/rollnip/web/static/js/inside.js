@@ -96,7 +96,7 @@ export class InsideView {
     try {
       const [field, result] = await Promise.all([
         post("/api/interior", { case: tree, roller, ...POINTS }, abort.signal),
-        post("/api/solve", tree, abort.signal), // with the stresses on interfaces
+        post("/api/solve?whole=false", tree, abort.signal), // with the stresses on interfaces
       ]);
       this.answer = { key, tree, field, interfaces: result.interfaces };
     } catch (error) {

@@ -86,6 +86,7 @@ WRONG = [
     ('face = "40 mm"', 'fase = "40 mm"', 'did you mean "face"'),
     ('material = "rubber"', 'material = "ruber"', 'did you mean "rubber"'),
     ("[16, 16]", "[16]", "patch.grid: must hold two"),
+    ("[patch]", '[model]\ngeometry = "finite"\n[patch]', "model.geometry: must be 'linear', got"),
     ('radius = "50 mm"', 'radius = "-50 mm"', "upper.radius: must be positive"),
     ('radius = "50 mm"', 'radius = "50 mm"\nlateral_profile = "p.csv"', "upper.lateral_profile"),
 ]
@@ -97,6 +98,11 @@ def test_wrong_cases_are_one_line_with_the_key(old, new, message):
     with pytest.raises(CaseFileError, match=r"^case: ") as caught:
         parse_patch_case(WHEEL.replace(old, new))
     assert message in str(caught.value)
+
+
+def test_the_geometry_may_be_said_to_be_the_linear_one():
+    said = parse_patch_case(WHEEL.replace("[patch]", '[model]\ngeometry = "linear"\n[patch]'))
+    assert said.patch == parse_patch_case(WHEEL).patch
 
 
 def test_a_measured_profile_along_the_axis(tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import ConfigDict, Field
 
 from rollnip.io.forms import FileTable, Force, Length, Radius, Ratio, Speed, TurnPerLength
@@ -50,6 +52,12 @@ class PatchTable(FileTable):
     )
 
 
+class PatchModelTable(FileTable):
+    """The model of the geometry: a patch has flat layers and small strains."""
+
+    geometry: Literal["linear"] | None = None
+
+
 class PatchCaseTable(FileTable):
     """A whole case file in three dimensions. Units: mm, N, MPa, s, or those that a text carries."""
 
@@ -58,6 +66,7 @@ class PatchCaseTable(FileTable):
     title: str = ""
     nip: PatchNipTable
     patch: PatchTable
+    model: PatchModelTable = PatchModelTable()
     solver: SolverTable = SolverTable()
     upper: PatchRollerTable
     lower: PatchRollerTable
@@ -66,6 +75,7 @@ class PatchCaseTable(FileTable):
 
 PATCH_TABLES: dict[str, type[FileTable]] = TABLES | {
     "nip": PatchNipTable,
+    "model": PatchModelTable,
     "patch": PatchTable,
     "upper": PatchRollerTable,
     "lower": PatchRollerTable,

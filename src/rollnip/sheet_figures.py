@@ -11,7 +11,7 @@ from typing import Any
 
 from rollnip.figure import Dimension, Figure, by_key, curve
 
-__all__ = ["PULL_FIGURES", "SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
+__all__ = ["BENDING_LENGTH", "PULL_FIGURES", "SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
 
 
 class SheetFigure(Figure):
@@ -208,6 +208,14 @@ PULL_FIGURES: Mapping[str, Figure] = by_key(
     Figure("largest", "largest pull that holds", "line load", "Pull above which the sheet slips."),
 )
 """Limits of the pull on the sheet between which it does not slip through the nip, by key."""
+
+BENDING_LENGTH = Figure(
+    "bending_length",
+    "reach of the bending stiffness",
+    "length",
+    "Length over which the bending stiffness of the sheet acts.",
+)
+"""How far along the nip the bending stiffness of a sheet acts; files hold it."""
 
 SHEET_PROFILES: Mapping[str, Figure] = {
     one.key: one

@@ -7,7 +7,7 @@ from typing import Any
 
 from rollnip.figure import Figure
 from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PLACES, PROFILES
-from rollnip.sheet_figures import PULL_FIGURES, SHEET_FIGURES, SHEET_PROFILES
+from rollnip.sheet_figures import BENDING_LENGTH, PULL_FIGURES, SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")
 _Variables = dict[str, tuple[Any, ...]]
@@ -127,9 +127,8 @@ def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
             values = _floats(sheet["profiles"][name], size)
             found[f"sheet_{name}"] = ("x", values, curve.described)
     found |= _grip(sheet["grip"])
-    length = {"units": "mm", "long_name": "length over which the bending stiffness acts"}
     bends = {"units": "1", "long_name": "1 where the bending stiffness is included, else 0"}
-    found["sheet_bending_length"] = _scalar(sheet["bending_length"], length)
+    found["sheet_bending_length"] = _scalar(sheet["bending_length"], BENDING_LENGTH.described)
     found["sheet_bends"] = ((), int(sheet["bends"]), bends)
     lower = _zones(sheet["zones_lower"])
     return found | {

@@ -71,17 +71,18 @@ def result_groups(tree: dict[str, Any]) -> dict[str, Any]:
 
 def _with_balance(root: Any, heat: dict[str, Any]) -> Any:
     """Return the dataset of a nip with what both rollers have together; names begin with heat."""
-    from rollnip.heat.figures import BALANCE_FIGURES, NIP_FIGURES
+    from rollnip.heat.figures import BALANCE_FIGURES, COURSES, NIP_FIGURES
 
     variables = _scalars({f"heat_{key}": (one, heat[key]) for key, one in BALANCE_FIGURES.items()})
     for state in ("cold", "warm"):
         variables |= _scalars(
             {f"heat_{state}_{key}": (one, heat[state][key]) for key, one in NIP_FIGURES.items()}
         )
+    kelvin = COURSES["rise"].unit
     for name, value, unit, text in (
         ("balance", heat["balance"], "1", "heat generated less heat that leaves, over all heat"),
         ("stable", heat["stable"], "1", "1 where a small disturbance dies out, else 0"),
-        ("error_temperature", heat["error"]["temperature"], "K", "estimated error of temperatures"),
+        ("error_temperature", heat["error"]["temperature"], kelvin, "error of temperatures"),
     ):
         about = {"units": unit, "long_name": text}
         variables[f"heat_{name}"] = ((), float("nan") if value is None else float(value), about)

@@ -212,6 +212,8 @@ def test_files_hold_the_fields(solved, tmp_path, ending):
         assert read["shear_x"].attrs["units"] == "MPa"
         assert float(read["load"]) == pytest.approx(200.0)
         assert read.attrs["status"] == solved.status
+        assert (read.attrs["schema"], read.attrs["geometry"]) == (1, "linear")
+        assert read.attrs["solver_rectangles"].tolist() == [16, 16]
         assert read.attrs["case_hash"] == patch_dict(solved)["case_hash"]
         assert json.loads(read.attrs["case"]) == patch_dict(solved)["case"]
 

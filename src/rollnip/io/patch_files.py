@@ -167,12 +167,14 @@ def _dataset(solution: PatchSolution) -> Any:
 
 def _attributes(solution: PatchSolution) -> dict[str, Any]:
     """Return what a netCDF file says of its solution as a whole; the case is a text of JSON."""
-    origin = origin_of(solution)
+    origin, tree = origin_of(solution), patch_dict(solution)
     return {
+        "schema": tree["schema"],
+        "geometry": tree["geometry"],
         "title": solution.patch.title,
         "status": solution.status,
         "converged": int(solution.converged),
         **origin,
         "case": dumps(origin["case"]),
         "warnings": "\n".join(solution.warnings),
-    }
+    } | {f"solver_{name}": value for name, value in tree["solver"].items()}

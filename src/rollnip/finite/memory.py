@@ -52,7 +52,7 @@ class Memory:
     speed: float
 
     @cached_property
-    def _layers(self) -> list[tuple[Indices, list[_Piece]]]:
+    def _layers(self) -> list[tuple[Indices, list[_RowPiece]]]:
         """The rows of elements of every viscoelastic material, and its pieces, upstream first."""
         rows: dict[Material, list[int]] = {}
         depths = self.strip.depths
@@ -126,7 +126,7 @@ class Memory:
 
 
 @dataclass(frozen=True)
-class _Piece:
+class _RowPiece:
     """How history integrals in neighbouring columns follow from what lies there and upstream.
 
     Attributes
@@ -159,7 +159,7 @@ class _Piece:
         return np.asarray(self.weights * ((ahead != 0) & (ahead != 1)))
 
 
-def _pieces(material: Material, times: Array) -> list[_Piece]:
+def _pieces(material: Material, times: Array) -> list[_RowPiece]:
     """Return the pieces of rows of a material, upstream first; one if E(t) has no exponentials.
 
     ``times``, (points + 2,) [s], are those at which material is on its way upstream of arc 0: at
@@ -173,14 +173,14 @@ def _pieces(material: Material, times: Array) -> list[_Piece]:
     ]
 
 
-def _piece(material: Material, terms: Array, times: Array, own: slice) -> _Piece:
+def _piece(material: Material, terms: Array, times: Array, own: slice) -> _RowPiece:
     """Return the piece of some Gauss points; ``terms``: (exponentials, 2, 1) g_i and tau_i."""
     points = slice(own.start, min(own.stop + 3, times.size - 2))
     around = times[points.start : points.stop + 2]  # with the neighbours on either side
     here, last, next_last = around[1 : own.stop - own.start + 1], around[-2], around[3]
     share, own_time = terms[:, 0], terms[:, 1]
     area = -share * own_time * np.expm1(-np.maximum(around - next_last, 0.0) / own_time)
-    return _Piece(
+    return _RowPiece(
         own=own,
         points=points,
         weights=_weights(memory_integral(material, around - here[:, None]), around),

@@ -67,8 +67,8 @@ class InterfaceSolution(Protocol):
         ...
 
 
-class LaggedTerms(Protocol):
-    """Terms of the problem that depend on its solution, lagged by one iteration."""
+class SheetTerms(Protocol):
+    """Lagged terms of a sheet, of a membrane or a plate: they follow from the last solution."""
 
     @property
     def traction(self) -> float | None:
@@ -84,7 +84,7 @@ class LaggedTerms(Protocol):
 ZonesT = TypeVar("ZonesT", bound=SideZones, covariant=True)
 ProblemT = TypeVar("ProblemT", bound=InterfaceProblem, covariant=True)
 StateT = TypeVar("StateT", bound=InterfaceSolution, covariant=True)
-TermsT = TypeVar("TermsT", bound=LaggedTerms, covariant=True)
+TermsT = TypeVar("TermsT", bound=SheetTerms, covariant=True)
 
 
 @dataclass(frozen=True)
@@ -121,5 +121,5 @@ class SheetIterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
         return self.problem.creeps(self.state, self.lagged)
 
 
-AnyIterate = SheetIterate[SideZones, InterfaceProblem, InterfaceSolution, LaggedTerms]
+AnyIterate = SheetIterate[SideZones, InterfaceProblem, InterfaceSolution, SheetTerms]
 """The iterate of a membrane or of a plate."""

@@ -8,6 +8,7 @@ import pytest
 
 from rollnip import Elastic, InvalidInputError, Layer, Profile, Roller, StandardLinearSolid
 from rollnip._errors import shown
+from rollnip.rollers import shear_lags
 
 RUBBER = Elastic(modulus=2.0, poisson=0.5)
 BLACK = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
@@ -191,3 +192,15 @@ def test_lengths_are_held_as_floats(number):
 
 def test_a_plane_of_any_float():
     assert Roller(radius=np.float32(inf)).curvature == 0.0
+
+
+def test_a_layer_that_is_stretched_hangs_on_the_shear_of_those_below():
+    """u'' = u / lag^2 with lag^2 = E' h sum(t/G); the lowest layer is bonded to the core."""
+    foil = Layer(0.05, Elastic(modulus=900.0, poisson=0.3))
+    upper = Layer(2.0, Elastic(modulus=3.0, poisson=0.5))
+    lower = Layer(4.0, BLACK)
+    lags = shear_lags(Roller(radius=50.0, layers=(foil, upper, lower)))
+    assert lags[0] == pytest.approx((900.0 / 0.91 * 0.05 * (2.0 / 1.0 + 4.0 * 1.5)) ** 0.5)
+    assert lags[1] == pytest.approx((3.0 / 0.75 * 2.0 * 4.0 * 1.5) ** 0.5)
+    assert lags[2] == 0.0
+    assert shear_lags(Roller(radius=50.0)) == ()

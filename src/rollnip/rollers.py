@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import pairwise
-from math import inf
+from math import inf, sqrt
 from typing import Literal
 
 import numpy as np
@@ -251,6 +251,22 @@ class Roller:
         for layer in self.layers:
             depths.append(depths[-1] + layer.thickness)
         return tuple(below for _, below in pairwise(depths))
+
+
+def shear_lags(roller: Roller) -> tuple[float, ...]:
+    """Return the shear lag of each layer, from the surface down [mm].
+
+    It is the length sqrt(E' h sum(t/G)) over which a layer of thickness h that is stretched passes
+    its force on to the core, through the layers below, of thicknesses t. E' = E/(1 - nu^2) is that
+    of its glassy modulus, G are their relaxed shear moduli. The lowest layer has none.
+    """
+    lags, below = [], 0.0
+    for layer in reversed(roller.layers):
+        material = layer.material
+        stretched = material.glassy_modulus / (1.0 - material.poisson**2) * layer.thickness
+        lags.append(sqrt(stretched * below))
+        below += 2.0 * (1.0 + material.poisson) * layer.thickness / material.relaxed_modulus
+    return tuple(reversed(lags))
 
 
 def _checked_radius(radius: float) -> float:

@@ -9,6 +9,7 @@ from rollnip import Elastic, Layer, Roller, StandardLinearSolid
 from rollnip.compliance import flat_compliance, ring_compliance
 from rollnip.influence import (
     covering_window,
+    has_stiff_skin,
     is_ring,
     surface_compliance,
     surface_kernels,
@@ -188,3 +189,19 @@ def test_stiff_and_soft_layers_together(contrast):
         near, far = kernel.value(np.array([1e-6, 1e-5]))
         slope = 2.0 * (1.0 - 0.3**2) / outer.modulus / pi
         assert (near - far) / np.log(10.0) == pytest.approx(slope, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "stiffness", "is_stiff"),
+    [
+        (0.05, 900.0, True),  # a foil
+        (0.02, 30.0, True),  # a hard coating
+        (0.1, 5.0, False),
+        (0.5, 30.0, False),  # a hard layer
+        (0.5, 900.0, True),
+    ],
+)
+def test_skins_that_are_stiff_for_their_thickness(thickness, stiffness, is_stiff):
+    top = Layer(thickness, Elastic(modulus=2.0 * stiffness, poisson=0.4))
+    assert has_stiff_skin([Roller(radius=50.0, layers=(top, Layer(4.0, RUBBER)))]) == is_stiff
+    assert not has_stiff_skin([Roller(radius=50.0, layers=(Layer(4.0, RUBBER), top))])

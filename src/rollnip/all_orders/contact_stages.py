@@ -23,7 +23,12 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.free_ends import elements_without_crowding, is_verified, with_free_ends
+from rollnip.rolling.free_ends import (
+    ENOUGH_FOR_ZONES,
+    elements_without_crowding,
+    is_verified,
+    with_free_ends,
+)
 from rollnip.rolling.iterations import solve_on_mesh
 from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
@@ -199,9 +204,9 @@ def _at_better_stage(
     if latest.has_free_ends:
         found = _refined(nip, model, kernels, latest)
         return found, ContactStage.REFINED if found.has_free_ends else ContactStage.FINE
-    ready = (
-        free_ends_from_nodes(nip, model, kernels, latest) if stage is ContactStage.FINE else None
-    )
+    ready: MeshSolution | None = None
+    if stage is ContactStage.FINE:
+        ready = free_ends_from_nodes(nip, model, kernels, latest, ENOUGH_FOR_ZONES + 1)
     if ready is not None and error_ratio(nip, ready, model.tolerance) <= 1.0:
         return ready, ContactStage.REFINED
     finer = finer_by_nodes(nip, model, kernels, latest)

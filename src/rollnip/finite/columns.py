@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import inf, pi, sqrt
+from math import inf, pi
 
 import numpy as np
 
 from rollnip.finite.strip import Array
-from rollnip.rollers import Layer, Roller
+from rollnip.rollers import Roller, shear_lags
 
 _COLUMNS = 32  # elements under the tractions, where no length below asks for more
 _BESIDE_EDGE = 0.15  # longest element at an edge, over `Columns.skin`
@@ -73,7 +73,7 @@ class Columns:
     def of(cls, roller: Roller, half_width: float) -> Columns:
         """Return the lengths for a contact of about this half-width [mm]."""
         thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
-        lag = _shear_lag(roller)
+        lag = max(shear_lags(roller), default=0.0)
         memory = _MEMORY if roller.is_viscoelastic else 1.0
         reach, far = _REACH * memory * thick, _REACH_OVER_LAG * lag
         if roller.curvature > 0.0:
@@ -200,17 +200,3 @@ def _skin_cut(roller: Roller) -> float:
     top, below = (layer.material for layer in roller.layers[:2])
     softer = _STIFF_RATIO * below.relaxed_modulus / top.glassy_modulus
     return _SKIN_CUT / (_skin_length(roller) * (1.0 + softer**3))
-
-
-def _shear_lag(roller: Roller) -> float:
-    """Return the largest shear lag: the length over which a layer passes its force to the core."""
-    lag, below = 0.0, 0.0
-    for layer in reversed(roller.layers):
-        poisson, glassy = layer.material.poisson, layer.material.glassy_modulus
-        lag = max(lag, sqrt(glassy / (1.0 - poisson**2) * layer.thickness * below))
-        below += layer.thickness / _shear_modulus(layer)
-    return lag
-
-
-def _shear_modulus(layer: Layer) -> float:
-    return 0.5 * layer.material.relaxed_modulus / (1.0 + layer.material.poisson)

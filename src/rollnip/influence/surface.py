@@ -15,12 +15,14 @@ from rollnip.influence.hats import displacement_under
 from rollnip.influence.kernel import TOLERANCE, Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
 from rollnip.model import RINGS
-from rollnip.rollers import Roller
+from rollnip.rollers import Roller, shear_lags
 
 # Ratio of the moduli of a layer and the one below it, above which tables have twice the points: the
 # interpolation error, 1e-7 of the largest compliance, is larger than that by this ratio relative to
 # the compliance at short waves.
-STIFF_SKIN = 100.0
+_LARGE_RATIO = 100.0
+LONG_LAG = 40.0
+"""Shear lag of a stiff skin, at least, over its thickness."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,9 +89,21 @@ def is_ring(roller: Roller, geometry: str) -> bool:
 
 
 def has_stiff_skin(rollers: Iterable[Roller]) -> bool:
-    """Return whether a layer is much stiffer than the one below it."""
+    """Return whether a layer passes on its force over far more than its thickness as it stretches.
+
+    So does a layer that is much stiffer than those below it, or thin and somewhat stiffer.
+    """
     return any(
-        above.material.glassy_modulus > STIFF_SKIN * below.material.relaxed_modulus
+        lag > LONG_LAG * layer.thickness
+        for roller in rollers
+        for lag, layer in zip(shear_lags(roller), roller.layers, strict=True)
+    )
+
+
+def _has_large_ratio(rollers: Iterable[Roller]) -> bool:
+    """Return whether a layer is very much stiffer than the one below it."""
+    return any(
+        above.material.glassy_modulus > _LARGE_RATIO * below.material.relaxed_modulus
         for roller in rollers
         for above, below in pairwise(roller.layers)
     )
@@ -113,7 +127,7 @@ def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
         [1e-6 * min(radii)] + [1e-3 * d for d in thicknesses] + [1e-5 * m for m in memories]
     )
     slowest = max([0.0, *thicknesses, *(r.coating_thickness for r in rollers), *memories])
-    return Window.covering(shortest, longest, slowest, densely=has_stiff_skin(rollers))
+    return Window.covering(shortest, longest, slowest, densely=_has_large_ratio(rollers))
 
 
 def surface_kernels(

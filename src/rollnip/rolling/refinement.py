@@ -83,13 +83,22 @@ def refine(
 
 
 def free_ends_from_nodes(
-    nip: Nip, model: Model, kernels: PairKernels, located: MeshSolution
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    located: MeshSolution,
+    most: int | None = None,
 ) -> MeshSolution | None:
-    """Return the solution with free ends, starting from the zones of one found node by node."""
+    """Return the solution with free ends, starting from the zones of one found node by node.
+
+    Its first mesh has as many elements as that one, but not many more than ``most``. Where zones
+    are short, nodes crowd at their ends, which adds to them. None: no limit.
+    """
     layout, count = Layout.of(located.zones, nip.friction), located.mesh.inner.size
     if layout is None:
         return None
-    return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, count)
+    fewest = count if most is None else min(count, most)
+    return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, fewest)
 
 
 def by_nodes(

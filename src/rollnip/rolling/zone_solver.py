@@ -21,7 +21,6 @@ from rollnip.contact import (
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
 from rollnip.contact.problem import Array, Indices
 from rollnip.influence import has_stiff_skin
-from rollnip.influence.surface import STIFF_SKIN
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
@@ -36,6 +35,7 @@ from rollnip.rolling.zone_search import SearchState
 _NEARLY_INCOMPRESSIBLE = 0.45
 _WIDTH_PER_PIECE = 7.0  # of the contact, in thicknesses of such a covering
 _MOST_PIECES = 16  # bounds memory
+_MORE_UNDER_SKIN = 100.0  # times as exactly lagged terms settle under a stiff skin
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
@@ -107,11 +107,11 @@ class ZoneSolver:
     def settled_change(self) -> float:
         """Change of the lagged terms at which iterations stop, over the tolerance.
 
-        Under a stiff skin the pressure beside an edge responds as much more to a change of the gap
-        as the skin is stiffer than what it covers. A mesh that only looks for zones needs no such
+        Under a stiff skin the pressure beside an edge responds many times more to a change of the
+        gap, and the shear to a change of the creep. A mesh that only looks for zones needs no such
         accuracy.
         """
-        return NEGLIGIBLE / STIFF_SKIN if self._has_skin else NEGLIGIBLE
+        return NEGLIGIBLE / _MORE_UNDER_SKIN if self._has_skin else NEGLIGIBLE
 
     @cached_property
     def _has_skin(self) -> bool:

@@ -56,7 +56,7 @@ serve: $(WEB_STAMP) ## the nip designer at http://127.0.0.1:8000
 
 # Two halves of about the same length at a time; what the second one prints comes at the end.
 FAST := $(BIN)/python -m pytest -m "not slow"
-HALF := $(addprefix tests/,cli design dma docs face heat identification interior io judges lda paper patch rough sweeps web)
+HALF := $(addprefix tests/,cli closed_forms compliance design dma docs face heat identification interior io judges lda paper patch rough sweeps verification web)
 
 test: venv ## the tests, in some minutes
 	@log=$$(mktemp); trap 'rm -f "$$log"' EXIT; \

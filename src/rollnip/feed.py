@@ -25,9 +25,10 @@ from rollnip.solver import geometry_for, solve
 __all__ = ["FeedChange", "feed_sensitivity"]
 
 _MOST_SHARE = 0.2
-_GEARED = 0.05
+_GEARED = 0.02
 """Share by which diameters of geared rollers change, over that of other quantities: they change the
-creepage by as much, and a creepage of 0.05 makes most nips slip over their whole width."""
+creepage by as much, and a creepage of 0.05 makes most nips slip over their whole width. Over 0.05
+of that share the feed of a nip bent by more than is claimed."""
 _OF_SHEET = {
     "thickness": "thickness of the sheet",
     "modulus": "modulus of the sheet",
@@ -84,7 +85,7 @@ def feed_sensitivity(
     Each quantity is increased and decreased by the fraction ``share``, and the rest is held
     constant: what is prescribed stays prescribed (including the approach, where it is given instead
     of the load). A prescribed creepage is one of geared rollers; where a diameter changes, the
-    gears stay as they are and the creepage follows (``share`` is 0.05 times as large there). Zero
+    gears stay as they are and the creepage follows (``share`` is 0.02 times as large there). Zero
     tensions and the radius of a flat roller are omitted, and so are moduli of materials other than
     `Elastic`, `StandardLinearSolid` and `Prony`.
 

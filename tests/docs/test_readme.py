@@ -16,6 +16,7 @@ def test_there_is_code():
     assert BLOCKS
 
 
+@pytest.mark.slow
 def test_it_passes_mypy_strict(tmp_path):
     api = pytest.importorskip("mypy.api")
     for number, block in enumerate(BLOCKS):

@@ -58,6 +58,7 @@ def test_what_is_no_plain_object_is_refused(client, body, said):
     assert said in answer.json()["error"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "said"),
     [

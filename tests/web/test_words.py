@@ -90,6 +90,7 @@ def test_what_is_not_clear_is_refused(text, dimension):
         read(text, dimension, "mm")
 
 
+@pytest.mark.slow
 def test_the_route_reads_it(post):
     body = {"text": "65A", "dimension": "ratio", "hardness": True}
     assert post("quantity", body) == {"value": 65.0, "unit": ""}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 from rollnip._own_process import ONE_THREAD, keep_freed_memory
@@ -20,6 +21,9 @@ def main() -> None:
         _run()
     except KeyboardInterrupt:
         sys.exit(130)
+    finally:
+        # Another Ctrl-C would end in a traceback, as the interpreter waits for its threads.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _run() -> None:

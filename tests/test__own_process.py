@@ -75,4 +75,9 @@ def test_only_own_processes_change_their_environment():
 
 
 def test_handlers_of_signals_are_set_where_they_are_put_back_or_the_process_is_own():
-    assert users("signal.signal(") == {"_own_process.py", "sweeps/interrupt.py", "web/worker.py"}
+    assert users("signal.signal(") == {
+        "_own_process.py",
+        "cli/__init__.py",
+        "sweeps/interrupt.py",
+        "web/worker.py",
+    }

@@ -116,3 +116,16 @@ def solved():
         return known[name, tolerance]
 
     return solve
+
+
+@pytest.fixture
+def unlike():
+    """Two coverings of unlike rubber that roll freely on each other."""
+    hard, soft = _elastic(1.9, 0.3), _elastic(0.8, 0.49)
+    return rn.Nip(
+        upper=rn.Roller(radius=10.0, layers=(rn.Layer(0.6, hard),)),
+        lower=rn.Roller(radius=20.0, layers=(rn.Layer(1.8, soft),)),
+        normal=rn.LineLoad(0.05),
+        tangential=rn.Traction(0.0),
+        friction=0.15,
+    )

@@ -7,39 +7,30 @@ import pytest
 import rollnip as rn
 from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
 
-SOFT = rn.Elastic(modulus=0.8, poisson=0.49)
-HARD = rn.Elastic(modulus=1.9, poisson=0.3)
-ROLLING = rn.Nip(
-    upper=rn.Roller(radius=10.0, layers=(rn.Layer(0.6, HARD),)),
-    lower=rn.Roller(radius=20.0, layers=(rn.Layer(1.8, SOFT),)),
-    normal=rn.LineLoad(0.05),
-    tangential=rn.Traction(0.0),
-    friction=0.15,
-)
 
-
-def test_a_zone_counts_by_the_width_or_by_a_boundary_layer_that_is_shorter():
+def test_a_zone_counts_by_the_width_or_by_a_boundary_layer_that_is_shorter(unlike):
     model = rn.Model(tolerance=1e-3)
-    assert boundary_layer(ROLLING) == 0.6
-    assert shortest_zone(ROLLING, model, 0.2) == pytest.approx(2e-4)
-    assert shortest_zone(ROLLING, model, 6.0) == pytest.approx(6e-4)
-    assert shortest_zone(ROLLING, rn.Model(tolerance=1e-4), 6.0) == pytest.approx(6e-5)
-    in_layers = replace(ROLLING.lower, layers=(rn.Layer(0.5, SOFT), rn.Layer(1.3, SOFT)))
-    assert boundary_layer(replace(ROLLING, upper=in_layers)) == 1.8  # of the same material
+    assert boundary_layer(unlike) == 0.6
+    assert shortest_zone(unlike, model, 0.2) == pytest.approx(2e-4)
+    assert shortest_zone(unlike, model, 6.0) == pytest.approx(6e-4)
+    assert shortest_zone(unlike, rn.Model(tolerance=1e-4), 6.0) == pytest.approx(6e-5)
+    (soft,) = unlike.lower.materials
+    in_layers = replace(unlike.lower, layers=(rn.Layer(0.5, soft), rn.Layer(1.3, soft)))
+    assert boundary_layer(replace(unlike, upper=in_layers)) == 1.8  # of the same material
 
 
-def test_second_parameter_of_dundurs():
+def test_second_parameter_of_dundurs(unlike):
     """(1 - 2 nu)/(2 (1 - nu)) beside a rigid surface; the opposite with the rollers exchanged."""
-    rigid = replace(ROLLING, lower=rn.Roller(radius=20.0))
+    rigid = replace(unlike, lower=rn.Roller(radius=20.0))
     assert dundurs(rigid) == pytest.approx((1.0 - 2.0 * 0.3) / (2.0 * (1.0 - 0.3)))
     assert dundurs(replace(rigid, upper=rigid.lower, lower=rigid.upper)) == -dundurs(rigid)
-    assert dundurs(replace(ROLLING, lower=ROLLING.upper)) == 0.0
+    assert dundurs(replace(unlike, lower=unlike.upper)) == 0.0
     relaxing = rn.StandardLinearSolid(
         modulus=1.9, stiffening=1.1, relaxation_time=1e-3, poisson=0.3
     )
     glassy = rn.Elastic(modulus=3.0, poisson=0.3)
     one, other = (
-        replace(ROLLING, upper=rn.Roller(radius=10.0, layers=(rn.Layer(0.6, material),)), speed=9.0)
+        replace(unlike, upper=rn.Roller(radius=10.0, layers=(rn.Layer(0.6, material),)), speed=9.0)
         for material in (relaxing, glassy)
     )
     assert dundurs(one) == pytest.approx(dundurs(other))

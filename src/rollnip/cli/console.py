@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO, cast
@@ -127,6 +127,11 @@ def say(text: str) -> None:
         sys.stderr.flush()
     except OSError:
         silence(sys.stderr)
+
+
+def warn(texts: Iterable[str]) -> None:
+    """Write warnings to the standard error, each in a line of its own."""
+    say("".join(f"rollnip: warning: {text}\n" for text in texts))
 
 
 def leave(message: str, code: int) -> None:

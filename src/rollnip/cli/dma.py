@@ -11,7 +11,7 @@ import typer
 from rollnip._errors import InvalidInputError, require_finite
 from rollnip._files import one_run
 from rollnip._json import json_text
-from rollnip.cli.console import clear_failures, named, named_by, read_option, say
+from rollnip.cli.console import clear_failures, named, named_by, read_option, warn
 from rollnip.cli.dma_files import convert, show
 from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
@@ -160,7 +160,7 @@ def fit(
         elif out is None:
             sys.stdout.write(text)
         sys.stdout.flush()
-        say("".join(f"rollnip: warning: {said}\n" for said in warnings))
+        warn(warnings)
 
 
 def _data(

@@ -11,7 +11,7 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip._json import json_text
-from rollnip.cli.console import clear_failures, read_option, say
+from rollnip.cli.console import clear_failures, read_option, warn
 from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def convert(
         else:
             write_whole(out, lambda target: target.write_text(text, "utf-8"))
         sys.stdout.flush()
-        say("".join(f"rollnip: warning: {said}\n" for said in notes))
+        warn(notes)
 
 
 def _of_case(file: Path, name: str) -> Prony:

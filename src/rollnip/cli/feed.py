@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rollnip._errors import InvalidInputError
-from rollnip.cli.console import clear_failures, named, overridden, say, write
+from rollnip.cli.console import clear_failures, named, overridden, warn, write
 from rollnip.cli.options import Json, Tolerance
 
 if TYPE_CHECKING:
@@ -52,8 +52,7 @@ def feed(
         with named(problem.source), counting("quantities") as progress:
             changes = feed_sensitivity(problem.nip, model, progress=progress)
         for side in SIDES:
-            for one in energies_left_out(side, getattr(problem.nip, side)):
-                say(f"rollnip: warning: {one.text}\n")
+            warn(one.text for one in energies_left_out(side, getattr(problem.nip, side)))
         geared = is_geared(problem.nip)
         write((_as_json(changes) if json else _as_text(changes, geared=geared)) + "\n")
     if not all(one.converged for one in changes):

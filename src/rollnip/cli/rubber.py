@@ -11,7 +11,7 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip._json import json_text
-from rollnip.cli.console import clear_failures, read_option, say
+from rollnip.cli.console import clear_failures, read_option, warn
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def fit(
         elif out is None:
             sys.stdout.write(text)
         sys.stdout.flush()
-        say("".join(f"rollnip: warning: {said}\n" for said in found.warnings))
+        warn(found.warnings)
 
 
 def _require_each_once(files: list[Path]) -> None:

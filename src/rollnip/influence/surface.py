@@ -21,8 +21,7 @@ from rollnip.rollers import Roller, shear_lags
 # interpolation error, 1e-7 of the largest compliance, is larger than that by this ratio relative to
 # the compliance at short waves.
 _LARGE_RATIO = 100.0
-LONG_LAG = 40.0
-"""Shear lag of a stiff skin, at least, over its thickness."""
+_LONG_LAG = 40.0  # shear lag of a stiff skin, at least, over its thickness
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +93,7 @@ def has_stiff_skin(rollers: Iterable[Roller]) -> bool:
     So does a layer that is much stiffer than those below it, or thin and somewhat stiffer.
     """
     return any(
-        lag > LONG_LAG * layer.thickness
+        lag > _LONG_LAG * layer.thickness
         for roller in rollers
         for lag, layer in zip(shear_lags(roller), roller.layers, strict=True)
     )

@@ -118,7 +118,7 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
 
 
 class Doubts(TypedDict):
-    """What a `FaceEnd` says of itself."""
+    """Status and warnings of a `FaceEnd`."""
 
     status: str
     warnings: tuple[str, ...]

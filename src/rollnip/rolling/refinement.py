@@ -91,8 +91,8 @@ def free_ends_from_nodes(
 ) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node.
 
-    Its first mesh has as many elements as that one, or ``most`` if these are fewer; nodes that crowd
-    at the ends of short zones add to them.
+    Its first mesh has as many elements as that one, or ``most`` if these are fewer. Nodes that
+    crowd at the ends of short zones add to them.
     """
     layout, count = Layout.of(located.zones, nip.friction), located.mesh.inner.size
     if layout is None:

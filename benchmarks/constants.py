@@ -228,9 +228,10 @@ def off(solution, truth):
     elif not nip.has_half_space:
         sizes["approach"] = abs(truth.approach)
     if np.isfinite(truth.creepage) and not isinstance(nip.tangential, rn.Creepage):
-        from rollnip.rolling.mesh_solution import creepage_scale
+        from rollnip.rolling.changes import scale_of_creepage
 
-        sizes["creepage"] = creepage_scale(nip, truth)
+        slope = 0.5 * truth.nip_width * nip.curvature
+        sizes["creepage"] = scale_of_creepage(truth.creepage, slope)
     for name, size in sizes.items():
         claimed = max(solution.error[name] / size, LEAST_CLAIM)
         yield abs(getattr(figures, name) - getattr(truth, name)) / size, claimed

@@ -192,7 +192,7 @@ def test_layers_share_what_the_surface_moves(geometry):
     solution = rn.solve(nip, rn.Model(geometry=geometry))
     assert solution.model.geometry == geometry
     checks = importlib.import_module("rollnip.no_nip")
-    side, roller, shares = checks._pressed_in_by(0.0, nip, geometry, solution.final)
+    side, roller, shares = checks._pressed_in_by(0.0, solution.final, geometry)
     assert (side, roller) == ("upper", nip.upper)
     assert shares @ (0.5, 8.0) == pytest.approx(solution.approach, rel=1e-3)
 

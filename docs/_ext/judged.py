@@ -130,7 +130,7 @@ def judged(number: int, geometry: str) -> Judged:
 def _skin(solution: rn.Solution) -> float | None:
     if not any("A stiff top layer" in line for line in solution.warnings):
         return None
-    return StrainSizes.of(solution.nip, solution.model, solution.final).skin
+    return StrainSizes.of(solution.final).skin
 
 
 GROUPS = {

@@ -10,7 +10,6 @@ from rollnip.contact.problem import Array
 from rollnip.interior import SurfaceTractions, beyond_linear, interior_field
 from rollnip.materials import NeoHookean
 from rollnip.model import Geometry
-from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling import MeshSolution, rates_of
 
@@ -25,7 +24,7 @@ MOST_CREEPAGE = 2.0
 """Creepage at which one roller stands still; beyond, it would rotate backwards."""
 
 
-def impossible(nip: Nip, geometry: Geometry, final: MeshSolution) -> str:
+def impossible(final: MeshSolution) -> str:
     """Return why the result is no nip, in a sentence; "" where nothing speaks against it."""
     creepage = final.state.creepage
     if not isnan(creepage) and abs(creepage) >= MOST_CREEPAGE:
@@ -34,11 +33,11 @@ def impossible(nip: Nip, geometry: Geometry, final: MeshSolution) -> str:
             "rotate backwards. Strains are far too large for this nip; lower the traction or the "
             "load."
         )
-    deep = _pressed_in_by(MOST_PRESSED_IN, nip, geometry, final)
-    return _sheet_too_thin(nip, final) if deep is None else _too_deep(*deep)
+    deep = _pressed_in_by(MOST_PRESSED_IN, final, final.geometry)
+    return _sheet_too_thin(final) if deep is None else _too_deep(*deep)
 
 
-def is_too_deep(nip: Nip, geometry: Geometry, found: MeshSolution, *, is_rough: bool) -> bool:
+def is_too_deep(found: MeshSolution, *, is_rough: bool) -> bool:
     """Return whether a layer is pressed in too far for a finer mesh or finite strain to be tried.
 
     In a solution that ``is_rough``, before finite strain or on a first mesh, that is by its whole
@@ -46,21 +45,21 @@ def is_too_deep(nip: Nip, geometry: Geometry, found: MeshSolution, *, is_rough: 
     by 0.57 of its thickness and more where `curved` does so by all of it (Poisson ratios of 0.3 to
     0.5, thicknesses of 0.002 to 0.3 of the radius).
     """
-    share = MOST_PRESSED_IN
+    share, geometry = MOST_PRESSED_IN, found.geometry
     if is_rough:
         share, geometry = 1.0, ("curved" if geometry == "finite" else geometry)
-    return _pressed_in_by(share, nip, geometry, found) is not None
+    return _pressed_in_by(share, found, geometry) is not None
 
 
 def _pressed_in_by(
-    share: float, nip: Nip, geometry: Geometry, found: MeshSolution
+    share: float, found: MeshSolution, geometry: Geometry
 ) -> tuple[str, Roller, Array] | None:
     """Return a roller with a layer pressed in by such a share of its thickness, and its layers'.
 
     None where there is none.
     """
-    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
-        pressed = _pressed_in(side, roller, nip, geometry, found)
+    for side, roller in (("upper", found.nip.upper), ("lower", found.nip.lower)):
+        pressed = _pressed_in(side, roller, found, geometry)
         if np.any(pressed >= share):
             return side, roller, pressed
     return None
@@ -79,23 +78,22 @@ def _too_deep(side: str, roller: Roller, pressed: Array) -> str:
     )
 
 
-def _sheet_too_thin(nip: Nip, final: MeshSolution) -> str:
+def _sheet_too_thin(final: MeshSolution) -> str:
     """Return the sentence on a sheet that loses too much of its thickness; "" if it does not."""
-    if nip.sheet is None:
+    sheet = final.nip.sheet
+    if sheet is None:
         return ""
-    lost = final.figures.peak_pressure * nip.sheet.squeeze / nip.sheet.thickness
+    lost = final.figures.peak_pressure * sheet.squeeze / sheet.thickness
     if lost < MOST_PRESSED_IN:
         return ""
     return (
-        f"The sheet, {nip.sheet.thickness:g} mm thick, is pressed together by {100.0 * lost:.0f} % "
+        f"The sheet, {sheet.thickness:g} mm thick, is pressed together by {100.0 * lost:.0f} % "
         f"of its thickness; beyond {100.0 * MOST_PRESSED_IN:.0f} % none of the models here holds. "
         "Lower the load, or take a larger `modulus_thickness`."
     )
 
 
-def _pressed_in(
-    side: str, roller: Roller, nip: Nip, geometry: Geometry, final: MeshSolution
-) -> Array:
+def _pressed_in(side: str, roller: Roller, final: MeshSolution, geometry: Geometry) -> Array:
     """Return the compression of each layer over its thickness, under the deepest surface point.
 
     Nothing is returned where no layer can be pressed in too far: none is compressed by more than
@@ -125,13 +123,13 @@ def _pressed_in(
         return np.array([moved / roller.layers[0].thickness])
     tractions = SurfaceTractions.on_inner(final.nodes, sign * final.shear, final.pressure)
     depths, place = np.array([0.0, *roller.interfaces]), final.mesh.inner[[deepest]]
-    speeds = None
-    if nip.speed is not None:
+    speed, speeds = final.nip.speed, None
+    if speed is not None:
         rate = rates_of(geometry, final.state.creepage)[0 if side == "upper" else 1]
-        speeds = (nip.speed, rate * nip.speed)
+        speeds = (speed, rate * speed)
     beyond = beyond_linear(roller, geometry, tractions, speeds)
     field = interior_field(
-        roller, tractions, depths, place, geometry=geometry, speed=nip.speed, beyond=beyond
+        roller, tractions, depths, place, geometry=geometry, speed=speed, beyond=beyond
     )
     shares = -np.diff(field.u_z[:, 0]) / np.diff(depths)
     return np.asarray(shares if roller.core else shares * (moved / float(field.u_z[0, 0])))

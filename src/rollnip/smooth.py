@@ -17,7 +17,6 @@ from rollnip.contact import State, contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
     MeshSolution,
-    PairKernels,
     Powers,
     claims,
     fields_at,
@@ -38,11 +37,9 @@ class SmoothSolution(Solution):
     Attributes
     ----------
     final : the contact on the last mesh, with its error estimates.
-    kernels : the influence functions of both rollers.
     """
 
     final: MeshSolution = field(repr=False, kw_only=True)
-    kernels: PairKernels = field(repr=False, kw_only=True)
 
     @property
     def load(self) -> float:
@@ -103,19 +100,14 @@ class SmoothSolution(Solution):
         return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
 
     def _claimed_errors(self) -> dict[str, float]:
-        geometry, final = self.model.geometry, self.final
-        secondary = secondary_claims(self.nip, geometry, final, self._powers)
-        return claims(self.nip, geometry, final) | secondary
+        return claims(self.final) | secondary_claims(self.final, self._powers)
 
     @cached_property
     def profiles(self) -> Profiles:
         """Pressure, shear, gap, slip velocity, strains and speeds, in the nip and beside it."""
         x = fine_points(self.final)
-        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
-        strains = [
-            surface_strain(x, self.nip, self.model.geometry, self.kernels, self.final, side=side)
-            for side in ("upper", "lower")
-        ]
+        fields = fields_at(x, self.final)
+        strains = [surface_strain(x, self.final, side=side) for side in ("upper", "lower")]
         speeds = self._roller_speeds
         slip = None
         if speeds is not None and self.nip.friction > 0.0:
@@ -140,7 +132,7 @@ class SmoothSolution(Solution):
         that is left out.
         """
         x = fine_points(self.final)
-        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        fields = fields_at(x, self.final)
         depths = surface_depths(x, self.nip, self.model.geometry, fields.displacements)
         return DeformedSurfaces(x, depths[0] - self.final.state.approach, -depths[1])
 
@@ -174,7 +166,7 @@ class SmoothSolution(Solution):
 
     @cached_property
     def _powers(self) -> Powers:
-        return powers(self.nip, self.model.geometry, self.final)
+        return powers(self.final)
 
     @property
     def _heat_beyond(self) -> tuple[float, float]:

@@ -15,7 +15,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from math import copysign
 from time import perf_counter
@@ -25,7 +25,7 @@ import numpy as np
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_instance
-from rollnip.all_orders import Nearby, refine_all_orders, with_second_order
+from rollnip.all_orders import refine_all_orders, with_second_order
 from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque
@@ -34,9 +34,8 @@ from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
     IterationFailure,
     MeshSolution,
-    PairKernels,
+    RollingContact,
     half_width_guess,
-    has_grip,
     pair_kernels,
     refine,
 )
@@ -152,27 +151,27 @@ def _solve_smooth(
     ``start`` is the clock at the call of `solve`, from which the solver time counts [s].
     """
     model = replace(model, geometry=geometry_for(nip, model))
-    kernels, final = _influence_and_contact(nip, model, cache, near)
+    final = _solved_contact(nip, model, cache, near)
     given_up: list[tuple[Geometry, str]] = []
-    while model.geometry in FINITE and (cause := _why_no_solution(nip, model, final)):
+    while model.geometry in FINITE and (cause := _why_no_solution(final)):
         given_up.append((model.geometry, cause))
         is_deep = final.failure is not None and final.failure.cause == "depth"
         model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
-        kernels, final = _influence_and_contact(nip, model, cache, None)
+        final = _solved_contact(nip, model, cache, None)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
-    _require_grip(nip, final)
-    if not final.settled and _may_spin(nip, final):
+    _require_grip(final)
+    if not final.settled and _may_spin(final):
         _require_less_than_sliding(nip, model, cache, final)
-    converged, status = _check(nip, model, final)
-    strains = StrainSizes.of(nip, model, final)
+    converged, status = _check(final, model.tolerance)
+    strains = StrainSizes.of(final)
     return SmoothSolution(
         nip=nip,
         model=model,
         converged=converged,
         status=status,
         reservations=consistent(
-            instead_of(given_up, model.geometry) + validity_reservations(nip, model, final, strains)
+            instead_of(given_up, model.geometry) + validity_reservations(final, strains)
         ),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
@@ -183,35 +182,33 @@ def _solve_smooth(
             version=_version(),
         ),
         final=final,
-        kernels=kernels,
         max_surface_strain=strains.surface,
     )
 
 
-def _influence_and_contact(
+def _solved_contact(
     nip: Nip, model: Model, cache: KernelCache, near: Solution | None
-) -> tuple[PairKernels, MeshSolution]:
-    """Return the influence functions of both rollers, and the contact on the last mesh."""
+) -> MeshSolution:
+    """Return the contact on the last mesh."""
     # Influence functions; those of second order are tabulated for a contact of the guessed width.
-    kernels = pair_kernels(nip, model.geometry, cache)
-    half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
+    contact = RollingContact(nip, model, pair_kernels(nip, model.geometry, cache))
+    half_width = half_width_guess(nip, contact.kernels)
     # Contact algorithm and geometry correction in turn, on finer and finer meshes.
-    too_deep = partial(is_too_deep, nip, model.geometry)
     if model.geometry == "finite":
-        begin = _as_start(near)
-        return refine_all_orders(nip, model, kernels, half_width, cache, too_deep, begin)
-    return kernels, refine(nip, model, kernels, half_width, is_too_deep=too_deep)
+        return refine_all_orders(contact, half_width, cache, is_too_deep, _as_start(near))
+    if model.geometry == "second":
+        contact = with_second_order(contact, half_width, cache)
+    return refine(contact, half_width, is_too_deep=is_too_deep)
 
 
-def _as_start(near: Solution | None) -> Nearby | None:
+def _as_start(near: Solution | None) -> MeshSolution | None:
     """Return a solution as a start for a similar nip; None where it cannot serve as one."""
     if not isinstance(near, SmoothSolution) or not near.converged:
         return None
-    return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
+    return near.final if near.model.geometry == "finite" else None
 
 
-def _why_no_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
+def _why_no_solution(final: MeshSolution) -> str:
     """Return why a geometry of finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one, so that the choice of the geometry never
@@ -224,11 +221,11 @@ def _why_no_solution(nip: Nip, model: Model, final: MeshSolution) -> str:
         return _how_far(final.failure)
     if not final.geometry_change < _DIVERGED:
         return (
-            f"its {BEYOND[model.geometry]} did not settle (they last changed by "
+            f"its {BEYOND[final.geometry]} did not settle (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
-    if model.geometry == "second" and not second_share(nip, final) < 1.0:
-        return f"its {BEYOND[model.geometry]} exceed the approach"
+    if final.geometry == "second" and not second_share(final) < 1.0:
+        return f"its {BEYOND[final.geometry]} exceed the approach"
     return "" if final.settled else "contact, stick and slip did not settle"
 
 
@@ -262,10 +259,10 @@ def _how_far(failure: IterationFailure) -> str:
     )
 
 
-def _require_grip(nip: Nip, final: MeshSolution) -> None:
+def _require_grip(final: MeshSolution) -> None:
     """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
-    wanted = final.problem.control.traction
-    if wanted is None or has_grip(final):
+    nip, wanted = final.nip, final.problem.control.traction
+    if wanted is None or final.has_grip:
         return
     is_known = isinstance(nip.normal, LineLoad) and not isinstance(nip.tangential, Torque)
     if not (final.settled or is_known):
@@ -309,37 +306,38 @@ def _refuse_traction(nip: Nip, wanted: float, limit: float) -> NoReturn:
     )
 
 
-def _check(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
+def _check(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
     """Return whether the solution is verified, and the status sentence that says so or what helps.
 
     The conditions are checked in the order in which one makes the next meaningful: iterations
     settled, result possible, ends of zones found, contact conditions met, errors small enough.
     """
-    is_verified, status = _first_failure(nip, model, final)
+    is_verified, status = _first_failure(final, tolerance)
     if not is_verified:
-        status += too_thin(nip, model, final) + too_slippery(nip, model)
+        status += too_thin(final, tolerance) + too_slippery(final.nip, tolerance)
     return is_verified, status
 
 
-def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
+def _first_failure(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
     """Return `_check` without what it adds on very thin coverings and very small friction."""
-    if not final.settled and _may_spin(nip, final):
+    geometry = final.geometry
+    if not final.settled and _may_spin(final):
         return False, (
             "Contact, stick and slip did not settle: the nip may need a traction of about "
             f"{final.problem.control.traction:.4g} N/mm, but friction carries at most "
-            f"{nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the traction "
-            "or torque, or raise the load or the friction."
+            f"{final.nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the "
+            "traction or torque, or raise the load or the friction."
         )
     if not final.settled:
         what = "Contact, stick and slip did not settle"
-        if final.geometry_change > 0.1 * model.tolerance:
+        if final.geometry_change > 0.1 * tolerance:
             name = "The geometry correction"
-            if model.geometry == "linear":  # uncorrected; a torque's traction is iterated
+            if geometry == "linear":  # uncorrected; a torque's traction is iterated
                 name = "The traction that gives `torque_lower`"
             what = f"{name} did not converge (last change {final.geometry_change:.1e})"
-        simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
+        simpler = "" if geometry == "linear" else '`geometry = "linear"`, '
         return False, f"{what}; try {simpler}a smaller load or another tolerance."
-    if reason := impossible(nip, model.geometry, final):
+    if reason := impossible(final):
         return False, reason
     if not final.has_free_ends:
         return False, (
@@ -347,27 +345,27 @@ def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, s
             "another load or tolerance."
         )
     left = final.residual
-    moves = model.geometry in FINITE and final.geometry_change > 0.5 * left
-    if not left <= model.tolerance and moves:
+    moves = geometry in FINITE and final.geometry_change > 0.5 * left
+    if not left <= tolerance and moves:
         return False, (
-            f"The {BEYOND[model.geometry]} of finite strain still change by "
+            f"The {BEYOND[geometry]} of finite strain still change by "
             f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
-            f"by {left:.1e}, more than the tolerance {model.tolerance:g}; try a smaller load, a "
+            f"by {left:.1e}, more than the tolerance {tolerance:g}; try a smaller load, a "
             'larger tolerance or `geometry = "curved"`.'
         )
-    if not left <= model.tolerance:
-        return False, (f"{violated(left, model.tolerance)}; {ACCEPT_IT}.")
-    is_met, words = verdict(nip, model, final)
+    if not left <= tolerance:
+        return False, (f"{violated(left, tolerance)}; {ACCEPT_IT}.")
+    is_met, words = verdict(final, tolerance)
     if not is_met:
         return False, words
     return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
-def _may_spin(nip: Nip, final: MeshSolution) -> bool:
+def _may_spin(final: MeshSolution) -> bool:
     """Return whether a round that has not settled needs as much traction as friction can carry."""
     wanted = final.problem.control.traction
     load = final.figures.load
-    return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
+    return wanted is not None and load > 0.0 and abs(wanted) >= final.nip.friction * load > 0.0
 
 
 @cache  # reading it from the installed files takes as long as solving on one mesh

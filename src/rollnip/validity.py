@@ -70,30 +70,28 @@ class StrainSizes:
     skin: float
 
     @classmethod
-    def of(cls, nip: Nip, model: Model, final: MeshSolution) -> StrainSizes:
+    def of(cls, final: MeshSolution) -> StrainSizes:
         """Return the sizes of the strains in a solution."""
-        surface = surface_strain_in_nip(nip, model.geometry, final)
-        if model.geometry == "finite":  # strain to all orders: nothing is left out
+        surface = surface_strain_in_nip(final)
+        if final.geometry == "finite":  # strain to all orders: nothing is left out
             return cls(surface, 0.0, 0.0)
-        return cls(surface, second_share(nip, final), _skin_stretch(nip, final))
+        return cls(surface, second_share(final), _skin_stretch(final))
 
 
-def validity_reservations(
-    nip: Nip, model: Model, final: MeshSolution, strains: StrainSizes
-) -> tuple[Reservation, ...]:
+def validity_reservations(final: MeshSolution, strains: StrainSizes) -> tuple[Reservation, ...]:
     """Return the reservations on a solution: what exceeds its limit, and what that costs."""
-    rollers = _rollers(nip)
+    nip, model, rollers = final.nip, final.contact.model, _rollers(final.nip)
     found = [
-        _nip_strain(nip, final),
+        pressed_in(nip, final.state.approach),
         *(_thickness_ratio(side, roller, model) for side, roller in rollers),
-        _contact_angle(nip, final),
+        _contact_angle(final),
         None if model.geometry == "finite" else _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(side, roller, model) for side, roller in rollers),
         *(_thin_top_layer(side, roller, final) for side, roller in rollers),
-        *(one for side, roller in rollers for one in _materials(side, roller, nip, final)),
-        *(one for side, roller in rollers for one in volume_reservations(side, roller, nip, final)),
+        *(one for side, roller in rollers for one in _materials(side, roller, final)),
+        *(one for side, roller in rollers for one in volume_reservations(side, roller, final)),
         *(one for side, roller in rollers for one in _energies(side, roller, model)),
     ]
     return tuple(one for one in found if one is not None)
@@ -101,10 +99,6 @@ def validity_reservations(
 
 def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:
     return ("upper", nip.upper), ("lower", nip.lower)
-
-
-def _nip_strain(nip: Nip, final: MeshSolution) -> Reservation | None:
-    return pressed_in(nip, final.state.approach)
 
 
 def pressed_in(nip: Nip, approach: float) -> Reservation | None:
@@ -146,8 +140,8 @@ def _thickness_ratio(side: Side, roller: Roller, model: Model) -> Reservation | 
     return Reservation(kind, sentence, figures, side, excess=ratio / limit)
 
 
-def _contact_angle(nip: Nip, final: MeshSolution) -> Reservation | None:
-    radius = min(nip.upper.radius, nip.lower.radius)
+def _contact_angle(final: MeshSolution) -> Reservation | None:
+    radius = min(final.nip.upper.radius, final.nip.lower.radius)
     angle = 0.5 * final.figures.nip_width / radius
     if angle <= CONTACT_ANGLE:
         return None
@@ -173,7 +167,7 @@ def _surface_strain(largest: float) -> Reservation | None:
     )
 
 
-def second_share(nip: Nip, final: MeshSolution) -> float:
+def second_share(final: MeshSolution) -> float:
     """Return the largest second-order indentation in the contact over the approach.
 
     With a half-space core, where the approach is infinite, the depth a^2/(2 R) of the undeformed
@@ -186,8 +180,8 @@ def second_share(nip: Nip, final: MeshSolution) -> float:
     largest = max(np.max(np.abs(u), initial=0.0) for u in (second.z_upper, second.z_lower))
     if largest == 0.0:
         return 0.0
-    if nip.has_half_space:
-        return float(largest / (0.125 * nip.curvature * final.figures.nip_width**2))
+    if final.nip.has_half_space:
+        return float(largest / (0.125 * final.nip.curvature * final.figures.nip_width**2))
     return float(largest / final.state.approach) if final.state.approach > 0.0 else inf
 
 
@@ -209,7 +203,7 @@ def _second_order(share: float) -> Reservation | None:
     )
 
 
-def _skin_stretch(nip: Nip, final: MeshSolution) -> float:
+def _skin_stretch(final: MeshSolution) -> float:
     """Return the creepage that stiff top layers may add by stretch of third order.
 
     A stiff top layer that rotates by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
@@ -219,7 +213,7 @@ def _skin_stretch(nip: Nip, final: MeshSolution) -> float:
     shear traction that displaces the foundation below it by a unit length. The estimate is this
     share of the root mean square of (r^2 - r_1^2)/2 in the nip, summed over both rollers.
     """
-    mesh, state = final.mesh, final.state
+    nip, mesh, state = final.nip, final.mesh, final.state
     if mesh.kernels.is_linear:
         return 0.0
     linear, present = mesh.linear_displacements(state), final.displacements
@@ -311,9 +305,7 @@ def _thin_top_layer(side: Side, roller: Roller, final: MeshSolution) -> Reservat
     )
 
 
-def _materials(
-    side: Side, roller: Roller, nip: Nip, final: MeshSolution
-) -> Iterator[Reservation | None]:
+def _materials(side: Side, roller: Roller, final: MeshSolution) -> Iterator[Reservation | None]:
     for number, material in enumerate(roller.materials, start=1):
         if isinstance(material, LossFactor):
             yield Reservation(
@@ -324,7 +316,7 @@ def _materials(
                 material=number,
             )
         if isinstance(material, Prony) and len(material.terms) > 1:
-            yield _outside_times(side, number, material, _dwell_time(nip, final))
+            yield _outside_times(side, number, material, _dwell_time(final))
         if isinstance(material, Viscoelastic) and material.shift is not None:
             yield _far_temperature(side, number, material)
 
@@ -355,8 +347,8 @@ def energies_left_out(side: Side, roller: Roller) -> list[Reservation]:
     ]
 
 
-def _dwell_time(nip: Nip, final: MeshSolution) -> float:
-    return final.figures.nip_width / (nip.speed or inf)
+def _dwell_time(final: MeshSolution) -> float:
+    return final.figures.nip_width / (final.nip.speed or inf)
 
 
 def _outside_times(side: Side, number: int, material: Prony, time: float) -> Reservation | None:

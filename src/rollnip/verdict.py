@@ -46,34 +46,32 @@ WORDS: Mapping[str, str] = {
 """Words for the figures to which the tolerance applies."""
 
 
-def verdict(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, str]:
+def verdict(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence about them.
 
     A claimed error has a share from the mesh and a share from the model. In a geometry of finite
     strain the share of the model meets every tolerance of 1e-3 or more, even where it is larger
     than that, and the mesh may then leave as much of the same figure. It meets no finer tolerance.
     """
-    relative = relative_claims(nip, model.geometry, final)
+    relative = relative_claims(final)
     if not relative:
         return False, "The solution has no pressure in the nip, so that no error can be estimated."
-    model_errors = model_shares(nip, model.geometry, final)
+    model_errors = model_shares(final)
     shares = {name: model_errors[name] for name in relative}
-    is_met = model.tolerance >= FINEST_OF_FINITE
-    allowed = {
-        name: max(model.tolerance, shares[name]) if is_met else model.tolerance for name in relative
-    }
+    is_met = tolerance >= FINEST_OF_FINITE
+    allowed = {name: max(tolerance, shares[name]) if is_met else tolerance for name in relative}
     worst, ratio = worst_error(relative, allowed)
     if ratio <= 1.0 + ROUNDING:
-        more = left_open(relative, model.tolerance, "the model and the mesh leave")
-        return True, f"errors within the tolerance {model.tolerance:g}{more}."
+        more = left_open(relative, tolerance, "the model and the mesh leave")
+        return True, f"errors within the tolerance {tolerance:g}{more}."
     if relative[worst] <= shares[worst] * (1.0 + ROUNDING):
         return False, (
             f"{estimated_error_of(WORDS[worst], f'{100.0 * relative[worst]:.2g} %')}, more than "
-            f"the tolerance {model.tolerance:g}: no mesh makes {_LEFT_BY[model.geometry]} "
+            f"the tolerance {tolerance:g}: no mesh makes {_LEFT_BY[final.geometry]} "
             f"better. Ask for a tolerance of {FINEST_OF_FINITE:g} or more, or for geometry "
             '"curved" or "linear".'
         )
-    return False, missed(WORDS[worst], relative[worst], ratio, model.tolerance)
+    return False, missed(WORDS[worst], relative[worst], ratio, tolerance)
 
 
 def missed(figure: str, error: float, ratio: float, tolerance: float) -> str:
@@ -126,13 +124,13 @@ def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
     return f", and what {by} open ({named})"
 
 
-def too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
+def too_thin(final: MeshSolution, tolerance: float) -> str:
     """Return a sentence on a covering so thin that it cannot only flow sideways; "" if none.
 
     In "finite" it says, too, where columns of elements are too long for the tolerance.
     """
-    half, out = 0.5 * final.figures.nip_width, ""
-    if model.geometry == "finite" and long_columns(nip, final) > model.tolerance:
+    nip, half, out = final.nip, 0.5 * final.figures.nip_width, ""
+    if final.geometry == "finite" and long_columns(final) > tolerance:
         out = f" {_LONG_COLUMNS}"
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
@@ -145,12 +143,12 @@ def too_thin(nip: Nip, model: Model, final: MeshSolution) -> str:
     return out
 
 
-def too_slippery(nip: Nip, model: Model) -> str:
+def too_slippery(nip: Nip, tolerance: float) -> str:
     """Return a sentence on friction smaller than the tolerance; "" where it is larger.
 
     The zones of stick are then about as short, relative to the nip width, as the friction is small.
     """
-    if not 0.0 < nip.friction <= model.tolerance:
+    if not 0.0 < nip.friction <= tolerance:
         return ""
     return (
         " So little friction hardly changes approach, nip width and pressure: take `friction = 0`, "

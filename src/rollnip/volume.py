@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Roller, Side
 from rollnip.rolling import MeshSolution
@@ -29,9 +28,7 @@ reservation.
 """
 
 
-def volume_reservations(
-    side: Side, roller: Roller, nip: Nip, final: MeshSolution
-) -> Iterator[Reservation]:
+def volume_reservations(side: Side, roller: Roller, final: MeshSolution) -> Iterator[Reservation]:
     """Yield a reservation on each layer whose change of volume is not that of rubber.
 
     The change of the approach is estimated under the mean pressure. Coverings of thickness d under
@@ -39,7 +36,7 @@ def volume_reservations(
     estimate is 0.8 to 1.1 times the true change where a is 1.2 to 80 times d (decision 64).
     """
     figures = final.figures
-    if nip.has_half_space or not figures.approach > 0.0:
+    if final.nip.has_half_space or not figures.approach > 0.0:
         return
     half_width = 0.5 * figures.nip_width
     kept = half_width**2 / (half_width**2 + roller.coating_thickness**2)

@@ -13,8 +13,8 @@ from rollnip.all_orders.contact_stages import ContactStage
 from rollnip.contact import NEAR_ENOUGH
 from rollnip.finite import FiniteResponse
 from rollnip.materials import Gent, Yeoh
+from rollnip.rolling import zone_solver
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.zone_solver import ZoneSolver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -35,7 +35,8 @@ def counts(monkeypatch):
     monkeypatch.setattr(FiniteResponse, "correction", evaluation)
 
     # Meshes with nodes at the ends of zones, not those on which zones are found.
-    monkeypatch.setattr(ZoneSolver, "mesh_at_ends", counted("meshes", ZoneSolver.mesh_at_ends))
+    meshes = counted("meshes", zone_solver.mesh_at_ends)
+    monkeypatch.setattr(zone_solver, "mesh_at_ends", meshes)
     return found
 
 
@@ -64,11 +65,10 @@ def test_what_the_second_order_leaves_out_is_about_the_square_of_the_strain(monk
         changes.append(change(*given))
         return changes[-1]
 
-    def second_contact(nip, model, second, coarse, strain):
-        found = begin(nip, model, second, coarse, strain)
-        assert strain == surface_strain_in_nip(nip, model.geometry, coarse)
-        begun.append((found[2], strain))
-        return found
+    def second_contact(contact, second, coarse):
+        found, stage = begin(contact, second, coarse)
+        begun.append((stage, surface_strain_in_nip(coarse)))
+        return found, stage
 
     change, begin = iteration._change_of_terms, iteration.second_contact
     monkeypatch.setattr(iteration, "_change_of_terms", change_of_terms)
@@ -94,16 +94,15 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
     """In the first iteration the mean of corrections is the last one itself."""
     held_by = []
 
-    def refused(nip, model, kernels, half_width):
-        held_by.append(kernels.held)
-        return kernels, SimpleNamespace(settled=False), ContactStage.COARSE
+    def refused(contact, half_width):
+        held_by.append(contact.kernels.held)
+        return SimpleNamespace(settled=False), ContactStage.COARSE
 
     monkeypatch.setattr(contact_stages, "first_contact", refused)
-    latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))
-    mean, last = (SimpleNamespace(held=object()) for _ in range(2))
-    for both in ((last, last), (mean, last)):
-        contact_stages.restart(None, None, both, latest)
-    assert held_by == [last.held, mean.held, last.held]
+    mean, last = (SimpleNamespace(kernels=SimpleNamespace(held=object())) for _ in range(2))
+    for accelerated in (last, mean):
+        contact_stages.restart(accelerated, last, 1.0)
+    assert held_by == [one.kernels.held for one in (last, mean, last)]
 
 
 @pytest.mark.parametrize("energy", [Yeoh(second=0.5), Gent(limit=2.0)], ids=repr)

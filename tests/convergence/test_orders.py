@@ -9,7 +9,7 @@ import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
 from rollnip.contact import Safeguarded, State, contact_zones
 from rollnip.paper.process.nodes import graded_nodes, states_on
-from rollnip.rolling import pair_kernels, peak_pressure
+from rollnip.rolling import RollingContact, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, initial_terms
 from rollnip.rolling.surfaces import Mesh
 
@@ -19,8 +19,9 @@ FIGURES = list(enumerate(["creepage", "nip width", "peak pressure"]))
 
 def figures_on(nip, kernels, breaks, count):
     """Creepage, nip width and peak pressure on one graded mesh."""
+    contact = RollingContact(nip, rn.Model(geometry="linear"), kernels)
     mesh = Mesh.on(graded_nodes(np.array(breaks), count), kernels)
-    problem = contact_problem(nip, mesh, initial_terms(nip, mesh))
+    problem = contact_problem(contact, mesh, initial_terms(contact, mesh))
     start = np.where(np.abs(problem.x) < 0.8 * breaks[-1], State.STICK, State.FREE)
     found = Safeguarded().solve(problem, start.astype(np.int8))
     assert found.settled
@@ -140,8 +141,9 @@ def test_uniform_elements_converge_slowly(carter_nip, carter_figures):
     found, exact = carter_figures
     a = 0.5 * exact[1]
     kernels = pair_kernels(carter_nip, "linear")
+    contact = RollingContact(carter_nip, rn.Model(geometry="linear"), kernels)
     mesh = Mesh.on(np.linspace(-1.05 * a, 1.05 * a, COUNTS[-1] + 1), kernels)
-    problem = contact_problem(carter_nip, mesh, initial_terms(carter_nip, mesh))
+    problem = contact_problem(contact, mesh, initial_terms(contact, mesh))
     uniform = Safeguarded().solve(problem, states_on(problem.x, ()) + np.int8(State.STICK))
     graded = abs(found[-1, 0] / exact[0] - 1.0)
     assert abs(uniform.creepage / exact[0] - 1.0) > 10.0 * graded

@@ -25,10 +25,10 @@ from rollnip.contact import (
     State,
     contact_zones,
 )
-from rollnip.influence import load_weights
 from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling.assemble import contact_problem, lagged_terms
-from rollnip.rolling.mesh_solution import Figures, creepage_scale, peak_pressure, scale_of_creepage
+from rollnip.rolling.changes import scale_of_creepage
+from rollnip.rolling.mesh_solution import Figures, peak_pressure
 from rollnip.rolling.surfaces import Mesh
 
 FINER = 10  # times as many elements
@@ -117,7 +117,9 @@ def reference(solution, finer=FINER, most=MOST):
 def _fine(solution, before, count, *, still):
     """Solve on about so many elements; another few meshes where one does not settle."""
     for growth in (1.0, 1.07, 0.93, 1.15):
-        mesh = Mesh.on(graded_nodes(breaks(before), int(growth * count)), solution.kernels)
+        mesh = Mesh.on(
+            graded_nodes(breaks(before), int(growth * count)), solution.final.contact.kernels
+        )
         found = _settled_on(solution, mesh, before, still)
         if found is not None:
             return found
@@ -135,7 +137,7 @@ def breaks(before):
 
 def _settled_on(solution, mesh, before, still):
     """The solution on one mesh with its second-order terms converged to rounding, or None."""
-    nip, geometry = solution.nip, solution.model.geometry
+    nip, contact = solution.nip, solution.final.contact
     states = states_on(mesh.inner, before.zones)
     old, x = before.state, before.mesh.inner
     state = replace(
@@ -144,14 +146,15 @@ def _settled_on(solution, mesh, before, still):
         pressure=np.interp(mesh.inner, x, old.pressure, left=0.0, right=0.0),
         shear=np.interp(mesh.inner, x, old.shear, left=0.0, right=0.0),
     )
-    lagged = lagged_terms(nip, geometry, mesh, state)
+    lagged = lagged_terms(contact, mesh, state)
     for _ in range(60):
-        problem = contact_problem(nip, mesh, lagged)
+        problem = contact_problem(contact, mesh, lagged)
         state = _solved(problem, states)
         if not state.settled:
             return None
-        updated = lagged_terms(nip, geometry, mesh, state)
-        change = _change(nip, mesh, state, updated, lagged)
+        updated = lagged_terms(contact, mesh, state)
+        # relative to the gap at the edge, whatever the approach
+        change = updated.change_from(lagged, contact, mesh, replace(state, approach=0.0))
         lagged, states = updated, state.states
         if change < still:
             break
@@ -167,14 +170,6 @@ def _solved(problem, states):
     if problem.friction == 0.0:
         return Safeguarded().solve(problem, states)
     return CoupledActiveSet(max_steps=60).solve(problem, states)
-
-
-def _change(nip, mesh, state, new, old):
-    half = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
-    strain = nip.curvature * half
-    load = float(load_weights(mesh.nodes) @ state.pressure)
-    scales = 0.5 * strain * half, scale_of_creepage(state.creepage, strain), strain * load
-    return new.change(old, state.creepage, mesh.dx, scales)
 
 
 def _figures(problem, state, zones, lean):
@@ -195,7 +190,9 @@ def scales(nip, figures):
     elif not nip.has_half_space:
         out["approach"] = abs(figures.approach)
     if isfinite(figures.creepage) and not isinstance(nip.tangential, rn.Creepage):
-        out["creepage"] = creepage_scale(nip, figures)
+        out["creepage"] = scale_of_creepage(
+            figures.creepage, 0.5 * figures.nip_width * nip.curvature
+        )
     return out
 
 

@@ -10,7 +10,6 @@ from population import GEOMETRIES, loaded_nips, one_of
 
 import rollnip as rn
 from rollnip.rolling import fields_at
-from rollnip.rolling.lengths import shortest_zone
 
 TOLERANCE = 1e-3
 
@@ -39,7 +38,7 @@ def check_contact(nip, geometry):
     # shear K/sqrt(y) exceeds mu p, about 2 mu peak sqrt(y/w), up to y = l: by a force of
     # 5 (l/w)^1.5 mu F.
     final = solution.final
-    shortest = shortest_zone(nip, solution.model, solution.nip_width)
+    shortest = final.contact.shortest_zone(solution.nip_width)
     shortest = max(shortest, *(slip.reach for slip in final.slip_left_out), 0.0)
     excess = np.abs(final.shear) - mu * np.maximum(final.pressure, 0.0)
     ends = [end for zone in final.zones for end in (zone.start, zone.stop)]
@@ -54,7 +53,7 @@ def check_contact(nip, geometry):
     outside = (profiles.x < solution.contact[0][0]) | (profiles.x > solution.contact[-1][1])
     assert np.all(profiles.pressure[outside] < 0.05 * peak)
     # `profiles.gap` has no negative values whatever the solution: the gap itself
-    fields = fields_at(profiles.x, nip, geometry, solution.kernels, solution.final)
+    fields = fields_at(profiles.x, solution.final)
     depth = 0.125 * nip.curvature * solution.nip_width**2
     if solution.approach is not None:
         depth = max(depth, solution.approach)  # as `residual` counts it

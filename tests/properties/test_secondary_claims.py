@@ -20,7 +20,7 @@ MOST = 800  # elements of a reference, for time
 def public(solution, found):
     """The figures of a solution on any mesh, under the names and in the units of the result."""
     nip, geometry = solution.nip, solution.model.geometry
-    of, state, figures = secondary_figures(nip, geometry, found), found.state, found.figures
+    of, state, figures = secondary_figures(found), found.state, found.figures
     rates = rates_of(geometry, state.creepage)
     lost = rates[0] * of.lost_upper + rates[1] * of.lost_lower
     return {
@@ -99,8 +99,8 @@ def test_claims_are_worth_something():
         solution = solved(random_case(number))
         if isinstance(solution, str) or not solution.converged:
             continue
-        of = secondary_figures(solution.nip, solution.model.geometry, solution.final)
-        sizes = secondary_sizes(solution.nip, solution.final, of)
+        of = secondary_figures(solution.final)
+        sizes = secondary_sizes(solution.final, of)
         with np.errstate(divide="ignore", invalid="ignore"):
             shares.append(solution.final.secondary_error.array() / sizes)
     assert np.all(np.nanquantile(shares, 0.9, axis=0) < 0.01)

@@ -10,8 +10,7 @@ from claims import ROUNDING, scales
 from population import numbers, random_case
 
 import rollnip as rn
-from rollnip.rolling import half_width_guess, pair_kernels, refine
-from rollnip.rolling.mesh_solution import error_ratio
+from rollnip.rolling import RollingContact, half_width_guess, pair_kernels, refine
 from rollnip.rolling.refinement import SIZES, by_nodes, finer_by_nodes
 
 TOLERANCE = 1e-3
@@ -21,17 +20,18 @@ TOLERANCE = 1e-3
 STARTS = {"narrow": (0.6, SIZES), "wide": (1.6, SIZES), "finer nodes": (1.0, SIZES[1:])}
 
 
-def stands(nip, final):
+def stands(final):
     """Whether solve would call it converged."""
-    return (
-        final.settled and final.residual <= TOLERANCE and error_ratio(nip, final, TOLERANCE) <= 1.0
-    )
+    return final.settled and final.residual <= TOLERANCE and final.error_ratio <= 1.0
 
 
-def refined(case, kernels, start, sizes):
+def contact_of(case):
     model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
-    half_width = start * half_width_guess(case.nip, kernels)
-    return refine(case.nip, model, kernels, half_width, sizes)
+    return RollingContact(case.nip, model, pair_kernels(case.nip, case.geometry))
+
+
+def refined(contact, start, sizes):
+    return refine(contact, start * half_width_guess(contact.nip, contact.kernels), sizes)
 
 
 def check_start(case, name):
@@ -39,10 +39,10 @@ def check_start(case, name):
 
     Returns whether they were compared, and whether they were reached in different ways.
     """
-    kernels = pair_kernels(case.nip, case.geometry)
-    one = refined(case, kernels, 1.0, SIZES)
-    other = refined(case, kernels, *STARTS[name])
-    if not (stands(case.nip, one) and stands(case.nip, other)):
+    contact = contact_of(case)
+    one = refined(contact, 1.0, SIZES)
+    other = refined(contact, *STARTS[name])
+    if not (stands(one) and stands(other)):
         return False, False
     for figure, scale in scales(case.nip, one.figures).items():
         claimed = getattr(one.error, figure) + getattr(other.error, figure)
@@ -69,12 +69,11 @@ def test_figures_are_those_of_a_solution_node_by_node(examples):
 
 def check_nodes(case):
     """Whether both solutions stand; of the states of nodes no mesh lies at the ends of zones."""
-    nip, kernels = case.nip, pair_kernels(case.nip, case.geometry)
-    model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
-    final = refined(case, kernels, 1.0, SIZES)
-    *_, rough = by_nodes(nip, model, kernels, half_width_guess(nip, kernels), SIZES[:3])
-    fine = finer_by_nodes(nip, model, kernels, rough)
-    if not (stands(nip, final) and rough.settled and fine.settled):
+    nip, contact = case.nip, contact_of(case)
+    final = refined(contact, 1.0, SIZES)
+    *_, rough = by_nodes(contact, half_width_guess(nip, contact.kernels), SIZES[:3])
+    fine = finer_by_nodes(contact, rough)
+    if not (stands(final) and rough.settled and fine.settled):
         return False
     assert not fine.has_free_ends
     for figure, scale in scales(nip, final.figures).items():

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import State, creep, gap, left_out_of_creep
+from rollnip.contact import ContactState, State, creep, gap, left_out_of_creep
 from rollnip.paper.process.nodes import graded_nodes
-from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
+from rollnip.rolling import RollingContact, fields_at, hoop_curvature, pair_kernels
 from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
 from rollnip.rolling.surfaces import Mesh
 
@@ -17,21 +17,22 @@ RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)
 
 
 def pair(upper, lower, geometry="linear", count=30):
-    """Nip, kernels, mesh and problem of two coatings."""
+    """Contact, mesh and discrete problem of two coatings."""
     nip = rn.Nip(
         upper=rn.Roller(radius=40.0, layers=upper),
         lower=rn.Roller(radius=20.0, layers=lower),
         normal=rn.LineLoad(1.0),
         friction=0.5,
     )
-    kernels = pair_kernels(nip, geometry)
-    mesh = Mesh.on(graded_nodes(np.array([-2.0, 2.0]), count), kernels)
-    return nip, mesh, contact_problem(nip, mesh, initial_terms(nip, mesh))
+    contact = RollingContact(nip, rn.Model(geometry=geometry), pair_kernels(nip, geometry))
+    mesh = Mesh.on(graded_nodes(np.array([-2.0, 2.0]), count), contact.kernels)
+    return contact, mesh, contact_problem(contact, mesh, initial_terms(contact, mesh))
 
 
 def test_clearance_is_the_parabola():
-    nip, _, problem = pair((rn.Layer(2.0, FOAM),), ())
-    np.testing.assert_allclose(problem.clearance, 0.5 * nip.curvature * problem.x**2, rtol=1e-14)
+    contact, _, problem = pair((rn.Layer(2.0, FOAM),), ())
+    parabola = 0.5 * contact.nip.curvature * problem.x**2
+    np.testing.assert_allclose(problem.clearance, parabola, rtol=1e-14)
 
 
 def test_identical_coverings_do_not_couple():
@@ -70,10 +71,10 @@ def test_problem_and_fresh_fields_agree(solved, name):
     solution = solved(name)
     state, mesh = solution.final.state, solution.final.mesh
     fine = replace(mesh.fine, exponents=(0j,) * len(mesh.fine.exponents))
-    plain = Mesh.on(mesh.nodes, solution.kernels, fine).influence
+    plain = Mesh.on(mesh.nodes, mesh.kernels, fine).influence
     problem = replace(solution.final.problem, influence=plain)
     nodes = mesh.nodes[1:]
-    fields = fields_at(nodes, solution.nip, "linear", solution.kernels, solution.final)
+    fields = fields_at(nodes, solution.final)
     depth = 0.125 * solution.nip.curvature * solution.nip_width**2
     np.testing.assert_allclose(fields.gap[:-1], gap(problem, state), atol=1e-9 * depth)
     lengths = problem.creep_length
@@ -97,7 +98,7 @@ def test_stretch_by_differences(solved, name):
     nip, xi = solution.nip, solution.creepage
     edges = solution.contact[0]
     x = np.linspace(edges[0], edges[1], 12001)
-    fields = fields_at(x, nip, "curved", solution.kernels, solution.final)
+    fields = fields_at(x, solution.final)
     lengths = []
     for roller, side in ((nip.upper, "upper"), (nip.lower, "lower")):
         u_x = getattr(fields.displacements, f"x_{side}")
@@ -124,8 +125,8 @@ def test_second_order_terms_stand_still(solved, name):
     """Evaluated once more on the final solution they are what it was solved with."""
     solution = solved(name)
     final = solution.final
-    again = lagged_terms(solution.nip, "curved", final.mesh, final.state)
-    problem = contact_problem(solution.nip, final.mesh, again)
+    again = lagged_terms(final.contact, final.mesh, final.state)
+    problem = contact_problem(final.contact, final.mesh, again)
     change = problem.creep_offset - final.problem.creep_offset
     change += solution.creepage * (problem.creep_length - final.problem.creep_length)
     dx = final.mesh.dx
@@ -145,19 +146,21 @@ def test_torque_asks_for_the_traction_that_gives_it(geometry, cases):
 
 @pytest.mark.parametrize("name", ["clearance", "creep_offset", "creep_length"])
 def test_a_change_that_is_no_number_is_never_small(name):
-    nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
-    zero = initial_terms(nip, mesh)
-    broken = replace(zero, **{name: np.full(mesh.inner.size, np.nan)})
-    assert np.isnan(broken.change(zero, 0.1, mesh.dx, (1.0, 1.0, 1.0)))
+    contact, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
+    zero, one = initial_terms(contact, mesh), np.ones(mesh.inner.size)
+    states = np.full(one.size, State.STICK, dtype=np.int8)
+    state = ContactState(states, one, one, 1.0, 0.1, steps=1, settled=True)
+    broken = replace(zero, **{name: np.nan * one})
+    assert np.isnan(broken.change_from(zero, contact, mesh, state))
 
 
 def test_initial_terms_are_zero():
-    nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
-    terms = initial_terms(nip, mesh)
+    contact, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
+    terms = initial_terms(contact, mesh)
     assert terms.traction is None
     assert not np.any(terms.clearance)
     assert not np.any(terms.creep_offset)
-    idler = replace(nip, tangential=rn.Torque(0.0))
+    idler = replace(contact, nip=replace(contact.nip, tangential=rn.Torque(0.0)))
     assert initial_terms(idler, mesh).traction == 0.0
 
 

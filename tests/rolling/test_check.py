@@ -11,21 +11,14 @@ from rollnip.contact import State
 from rollnip.rolling import fields_at
 from rollnip.rolling.check import residual
 from rollnip.rolling.iterations import with_residual
-from rollnip.rolling.lengths import shortest_zone
 
 NAMES = ["II driven, curved", "II corrected", "Carter", "idler", "viscoelastic half-space"]
-
-
-def shortest(solution):
-    return shortest_zone(solution.nip, solution.model, solution.nip_width)
 
 
 def fresh(solution, **changes):
     """Residual of a solution whose state was tampered with."""
     final = replace(solution.final, state=replace(solution.final.state, **changes))
-    geometry = solution.model.geometry
-    fields = fields_at(fine_points(final), solution.nip, geometry, solution.kernels, final)
-    return residual(solution.nip, fields, final, shortest(solution))
+    return residual(final, fields_at(fine_points(final), final))
 
 
 def test_untouched(case, solved):
@@ -38,20 +31,20 @@ def test_untouched(case, solved):
 def test_what_is_no_number_is_no_small_residual(solved, attribute):
     solution = solved("II driven, curved")
     final = solution.final
-    fields = fields_at(fine_points(final), solution.nip, "curved", solution.kernels, final)
+    fields = fields_at(fine_points(final), final)
     values = getattr(fields, attribute).copy()
     values[values.size // 2] = np.nan
     changed = replace(fields, **{attribute: values})
-    assert np.isnan(residual(solution.nip, changed, final, shortest(solution)))
+    assert np.isnan(residual(final, changed))
 
 
 def test_a_contact_without_load_carries_no_traction(solved):
     """Iterations that diverge may end with one: it ended in a division by zero."""
     solution = solved("II driven, curved")
     final = solution.final
-    fields = fields_at(fine_points(final), solution.nip, "curved", solution.kernels, final)
+    fields = fields_at(fine_points(final), final)
     empty = replace(final, figures=replace(final.figures, load=0.0))
-    assert residual(solution.nip, fields, empty, shortest(solution)) == np.inf
+    assert residual(empty, fields) == np.inf
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -114,7 +107,7 @@ def test_slip_with_its_own_shear(solved, name):
 def test_shear_beyond_its_bound_counts_further_than_the_shortest_zone_from_ends(solved):
     solution = solved("II driven, curved")
     nip, final = solution.nip, solution.final
-    fields = fields_at(fine_points(final), nip, "curved", solution.kernels, final)
+    fields = fields_at(fine_points(final), final)
     beyond = 0.1 * nip.friction * solution.peak_pressure
     x = final.mesh.inner
     ends = [end for zone in final.zones for end in (zone.start, zone.stop)]
@@ -124,16 +117,20 @@ def test_shear_beyond_its_bound_counts_further_than_the_shortest_zone_from_ends(
     shear = final.state.shear.copy()
     shear[beside] += np.sign(shear[beside]) * beyond
     wrong = replace(final, state=replace(final.state, shear=shear))
-    within = residual(nip, fields, wrong, 3.0 * distance[beside])
-    assert residual(nip, fields, wrong, 0.0) > within
-    assert residual(nip, fields, final, 0.0) <= 1e-3
+    reach = 3.0 * distance[beside] / final.contact.shortest_zone(solution.nip_width)
+    within, everywhere = (
+        replace(final.contact, model=replace(solution.model, tolerance=tolerance))
+        for tolerance in (reach * solution.model.tolerance, 1e-6)
+    )
+    assert residual(replace(wrong, contact=everywhere), fields) > residual(
+        replace(wrong, contact=within), fields
+    )
+    assert residual(replace(final, contact=everywhere), fields) <= 1e-3
 
 
 def test_fields_at_the_nodes_are_those_of_the_solution(case, solved):
     solution = solved(case[0])
-    fields = fields_at(
-        solution.nodes, solution.nip, solution.model.geometry, solution.kernels, solution.final
-    )
+    fields = fields_at(solution.nodes, solution.final)
     np.testing.assert_allclose(fields.pressure, solution.pressure, atol=1e-12)
     np.testing.assert_allclose(fields.shear, solution.shear, atol=1e-12)
     touching = solution.pressure > 0.0
@@ -158,12 +155,10 @@ def test_strain_is_the_slope_of_the_displacement(case, solved):
     middle = np.setdiff1d(0.5 * (nodes[1:] + nodes[:-1]), solution.nodes)
     step = max(1e-4 * np.min(np.diff(solution.nodes)), 1e-6 * solution.nip_width)
     for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
-        found = surface_strain(middle, nip, geometry, solution.kernels, solution.final, side=side)
+        found = surface_strain(middle, solution.final, side=side)
         ends = []
         for shift in (-step, 0.0, step):
-            u = fields_at(
-                middle + shift, nip, geometry, solution.kernels, solution.final
-            ).displacements
+            u = fields_at(middle + shift, solution.final).displacements
             ends.append((getattr(u, f"x_{side}"), getattr(u, f"z_{side}")))
         slopes = [(ends[2][i] - ends[0][i]) / (2.0 * step) for i in range(2)]
         expected = slopes[0]
@@ -181,13 +176,7 @@ def test_slip_velocity_opposes_the_shear(case, solved):
     solution = solved(case[0])
     if solution.creepage is None:
         pytest.skip("no friction")
-    fields = fields_at(
-        fine_points(solution.final),
-        solution.nip,
-        solution.model.geometry,
-        solution.kernels,
-        solution.final,
-    )
+    fields = fields_at(fine_points(solution.final), solution.final)
     velocity = slip_velocity(fields, solution.final.zones, 100.0)
     outside = (fields.x < solution.contact[0][0]) | (fields.x > solution.contact[-1][1])
     assert np.all(np.isnan(velocity[outside]))
@@ -203,12 +192,14 @@ def test_slip_left_out_that_matters_is_not_overlooked():
     sticking = rn.Nip(
         upper=foam, lower=rn.Roller(radius=93.0), normal=rn.LineLoad(1.7), friction=5.0
     )
-    model = rn.Model(geometry="linear")
-    solution = rn.solve(sticking, model)
-    final, kernels = solution.final, solution.kernels
+    solution = rn.solve(sticking, rn.Model(geometry="linear"))
     given = replace(sticking, tangential=rn.Creepage(solution.creepage))
-    assert with_residual(given, model, kernels, final).residual <= 1e-3
-    slippery = replace(final, problem=replace(final.problem, friction=0.3))
+    final = replace(solution.final, contact=replace(solution.final.contact, nip=given))
+    assert with_residual(final).residual <= 1e-3
+    slippery = replace(
+        final,
+        contact=replace(final.contact, nip=replace(given, friction=0.3)),
+        problem=replace(final.problem, friction=0.3),
+    )
     assert slippery.slip_left_out
-    checked = with_residual(replace(given, friction=0.3), model, kernels, slippery)
-    assert checked.residual > 0.05
+    assert with_residual(slippery).residual > 0.05

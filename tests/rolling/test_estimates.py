@@ -19,9 +19,8 @@ from rollnip.rolling.secondary import secondary_sizes
 
 @pytest.fixture
 def one(solved):
-    """A solution's last round and nip: what is looked at is replaced."""
-    solution = solved("II driven, curved")
-    return solution.nip, solution.final
+    """A solution's last round: what is looked at is replaced."""
+    return solved("II driven, curved").final
 
 
 def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
@@ -33,8 +32,7 @@ def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
 
 
 def claimed(one, history):
-    nip, final = one
-    return estimated_error(nip, replace(final, figures=history[-1].figures), history)
+    return estimated_error(replace(one, figures=history[-1].figures), history)
 
 
 def test_nothing_is_known_from_one_size(one):
@@ -114,24 +112,25 @@ def test_what_relaxes_within_an_element_lags_behind(length):
 
 def test_edges_within_a_memory_change_all_figures_in_proportion(one):
     """A length by one of them at either edge; tractions and losses by as much of themselves."""
-    nip, final = one
+    final, nip = one, one.nip
     rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=6.0, relaxation_time=1e-4, poisson=0.5)
     lagging = rn.Roller(radius=nip.upper.radius, layers=[rn.Layer(2.0, rubber)])
     lagging = replace(nip, upper=lagging, speed=100.0)
+    with_memory = replace(final, contact=replace(final.contact, nip=lagging))
     secondary = SecondaryFigures(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
     history = [
         RefinementLevel(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: secondary)
         for n in (20, 30)
     ]
     at_once, later = (
-        with_secondary_errors(of, final, history).secondary_error for of in (nip, lagging)
+        with_secondary_errors(of, history).secondary_error for of in (final, with_memory)
     )
     edge = 0.5 * (later.contact_length - at_once.contact_length)
     edges = np.diff(final.mesh.inner)[[0, -1]]
     assert edge >= max(lag_within(float(h), lagging.upper, 100.0) for h in edges) > 0.0
     share = 2.0 * edge / final.figures.nip_width
     assert later.traction - at_once.traction == pytest.approx(0.53 * share)
-    work = secondary_sizes(lagging, final, secondary)[3]
+    work = secondary_sizes(with_memory, secondary)[3]
     assert later.friction - at_once.friction == pytest.approx(share * work)
 
 

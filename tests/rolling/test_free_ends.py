@@ -9,7 +9,7 @@ import pytest
 import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus, free_rolling_vanishing_friction
 from rollnip.contact import Layout, State
-from rollnip.rolling import half_width_guess, pair_kernels, refinement
+from rollnip.rolling import RollingContact, half_width_guess, pair_kernels, refinement
 from rollnip.rolling.free_ends import with_free_ends
 from rollnip.rolling.refinement import by_nodes
 
@@ -85,10 +85,9 @@ def test_the_same_as_node_by_node(case, solved, node_by_node):
 @pytest.fixture
 def attempt(wheels):
     """Free ends from a layout that is made up."""
-    kernels = pair_kernels(wheels, "linear")
-    half_width = half_width_guess(wheels, kernels)
-    (before,) = by_nodes(wheels, LINEAR, kernels, half_width, (16,))
-    return lambda layout: with_free_ends(wheels, LINEAR, kernels, layout, before, 0.1)
+    contact = RollingContact(wheels, LINEAR, pair_kernels(wheels, "linear"))
+    (before,) = by_nodes(contact, half_width_guess(wheels, contact.kernels), (16,))
+    return lambda layout: with_free_ends(contact, layout, before, 0.1)
 
 
 @pytest.mark.parametrize("off", [0.8, 1.0, 1.2])

@@ -1,19 +1,15 @@
-"""The shortest zones that count, and how unlike two surfaces are."""
+"""Boundary layers, and how unlike two surfaces are."""
 
 from dataclasses import replace
 
 import pytest
 
 import rollnip as rn
-from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone
+from rollnip.rolling.lengths import boundary_layer, dundurs
 
 
-def test_a_zone_counts_by_the_width_or_by_a_boundary_layer_that_is_shorter(unlike):
-    model = rn.Model(tolerance=1e-3)
+def test_a_boundary_layer_is_as_deep_as_the_first_interface(unlike):
     assert boundary_layer(unlike) == 0.6
-    assert shortest_zone(unlike, model, 0.2) == pytest.approx(2e-4)
-    assert shortest_zone(unlike, model, 6.0) == pytest.approx(6e-4)
-    assert shortest_zone(unlike, rn.Model(tolerance=1e-4), 6.0) == pytest.approx(6e-5)
     (soft,) = unlike.lower.materials
     in_layers = replace(unlike.lower, layers=(rn.Layer(0.5, soft), rn.Layer(1.3, soft)))
     assert boundary_layer(replace(unlike, upper=in_layers)) == 1.8  # of the same material

@@ -7,10 +7,10 @@ import pytest
 
 import rollnip as rn
 from rollnip.contact import Layout, State, elements_of_zones
-from rollnip.rolling import pair_kernels
+from rollnip.rolling import zone_search
 from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, overlooked_states
-from rollnip.rolling.zone_search import SearchState, ZoneSearch
-from rollnip.rolling.zone_solver import ZoneSolver
+from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_solver import crowding_for, solve_with_zones
 
 # Its surfaces are so unlike that tractions turn beside the edges.
 TURNING = rn.Nip(
@@ -89,18 +89,17 @@ def test_misplaced_ends_change_the_creepage_as_claimed():
     model = rn.Model(geometry="linear", tolerance=1e-4)
     final = rn.solve(nip, model).final
     assert final.figures.nip_width > 20.0 * thickness
-    solver = ZoneSolver(nip, model, pair_kernels(nip, "linear"))
-    layout = Layout.of(final.zones, nip.friction)
-    crowding = solver.crowding(layout)
+    contact, layout = final.contact, Layout.of(final.zones, nip.friction)
+    crowding = crowding_for(contact, layout)
     shape = elements_of_zones(layout.breaks, 200, crowding), crowding
     for _ in range(4):
-        placed, layout = solver.solve(SearchState(layout, final, 0.0, 0.0), shape)
+        placed, layout = solve_with_zones(contact, SearchState(layout, final, 0.0, 0.0), shape)
     ratios = []
     for number, place in enumerate(layout.breaks):
         breaks = layout.breaks.copy()
         breaks[number] = place + 0.1 * thickness
         moved = Layout(breaks, layout.states)
-        found, proposed = solver.solve(SearchState(moved, final, 0.0, 0.0), shape)
+        found, proposed = solve_with_zones(contact, SearchState(moved, final, 0.0, 0.0), shape)
         change = abs(found.figures.creepage - placed.figures.creepage)
         ratios.append(change / creepage_by_ends(nip, moved, proposed))
     assert max(ratios) < 1.2
@@ -132,7 +131,7 @@ def test_slip_that_is_left_out_counts_in_the_error(monkeypatch, friction):
     nip = replace(TURNING, friction=friction)
     fine = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-4))
     assert fine.converged
-    monkeypatch.setattr(ZoneSearch, "slipping_at_edges", lambda *_: None)
+    monkeypatch.setattr(zone_search, "_with_slip_at_edges", lambda *_: None)
     found = rn.solve(nip, rn.Model(geometry="curved", tolerance=1e-2))
     assert len(found.final.zones) < len(fine.final.zones)
     assert found.converged
@@ -152,8 +151,6 @@ def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out
     sticking = max(fine.zones, key=lambda zone: zone.stop - zone.start)
     assert slip.length == pytest.approx(sticking.start - fine.zones[0].start, rel=0.2)
     assert abs(found.figures.creepage - fine.figures.creepage) < found.error.creepage
-    here, leading = (
-        creepage_by_slip(nip, found.figures, one) for one in (slip, replace(slip, leads=True))
-    )
+    here, leading = (creepage_by_slip(found, one) for one in (slip, replace(slip, leads=True)))
     share = slip.length / found.figures.nip_width
     assert here == pytest.approx(2.0 / 3.0 * leading * share, abs=0.0)

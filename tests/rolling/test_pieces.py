@@ -15,7 +15,7 @@ import pytest
 import rollnip as rn
 from rollnip.contact import Safeguarded, contact_intervals, contact_zones
 from rollnip.rolling.assemble import contact_problem, initial_terms
-from rollnip.rolling.surfaces import Mesh, pair_kernels
+from rollnip.rolling.surfaces import Mesh
 
 
 def film_on_foam(*, length=1.0, thickness=0.1, foam=0.05, friction=0.0):
@@ -66,8 +66,9 @@ def test_a_film_that_relaxes_touches_in_two_pieces(length, thickness, foam, geom
 def test_pieces_are_those_of_a_fine_mesh_whose_nodes_find_their_states_themselves():
     nip = film_on_foam()
     found = rn.solve(nip, rn.Model(geometry="linear"))
-    mesh = Mesh.on(np.linspace(-0.3, 0.8, 1101), pair_kernels(nip, "linear"))
-    problem = contact_problem(nip, mesh, initial_terms(nip, mesh))
+    contact = found.final.contact
+    mesh = Mesh.on(np.linspace(-0.3, 0.8, 1101), contact.kernels)
+    problem = contact_problem(contact, mesh, initial_terms(contact, mesh))
     start = np.zeros(problem.x.size, dtype=np.int8)
     start[np.abs(problem.x - found.contact[0][0] - 0.05) < 0.02] = 1
     start[np.abs(problem.x - found.contact[1][1] + 0.05) < 0.02] = 1

@@ -10,10 +10,10 @@ import rollnip as rn
 from rollnip.all_orders import with_second_order
 from rollnip.contact import Layout
 from rollnip.influence import KernelCache
-from rollnip.rolling import half_width_guess, pair_kernels
-from rollnip.rolling.placing import Placing
+from rollnip.rolling import RollingContact, half_width_guess, pair_kernels
+from rollnip.rolling.placing import place_ends
 from rollnip.rolling.refinement import SIZES, by_nodes
-from rollnip.rolling.zone_search import SearchState
+from rollnip.rolling.search_state import SearchState
 
 FINITE = rn.Model(geometry="second")
 
@@ -21,45 +21,44 @@ FINITE = rn.Model(geometry="second")
 @pytest.fixture
 def placing(cases):
     nip = cases["II driven, curved"][0]
-    kernels = pair_kernels(nip, "second")
-    width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, "second", width, KernelCache())
-    (found,) = by_nodes(nip, FINITE, kernels, width, SIZES[:1])
-    return Placing(nip, FINITE, kernels), SearchState(Layout.of(found.zones, nip.friction), found)
+    contact = RollingContact(nip, FINITE, pair_kernels(nip, "second"))
+    width = half_width_guess(nip, contact.kernels)
+    contact = with_second_order(contact, width, KernelCache())
+    (found,) = by_nodes(contact, width, SIZES[:1])
+    return contact, SearchState(Layout.of(found.zones, nip.friction), found)
 
 
 def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
     """However little it moved on the size before: that was the one of a coarser mesh."""
-    search, start = placing
-    coarse = search.solve(start, 26, zones_known=False)
+    contact, start = placing
+    coarse = place_ends(contact, start, 26, zones_known=False)
     still = replace(coarse, change=1e-3, to_come=1e-6)
-    fine = search.solve(still, 40, zones_known=True)
+    fine = place_ends(contact, still, 40, zones_known=True)
     assert fine.solution.mesh.kernels.held is not coarse.solution.mesh.kernels.held
     assert fine.change != still.change
 
 
 def test_a_second_order_that_moves_as_much_as_before_is_not_still(placing):
-    search, start = placing
-    stand = search.solve(start, 26, zones_known=False)
-    again = search.solver.renewed(replace(stand, change=0.0, to_come=inf))
+    contact, start = placing
+    stand = place_ends(contact, start, 26, zones_known=False)
+    again = replace(stand, change=0.0, to_come=inf).renewed(contact)
     assert again.change > 0.0
     assert again.to_come == inf
 
 
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
-    search, start = placing
-    stand = search.solve(start, 26, zones_known=False)
-    once = search.solver.renewed(replace(stand, change=inf, to_come=inf))
+    contact, start = placing
+    stand = place_ends(contact, start, 26, zones_known=False)
+    once = replace(stand, change=inf, to_come=inf).renewed(contact)
     assert once.to_come == inf  # one change tells nothing
-    twice = search.solver.renewed(replace(stand, change=4.0 * once.change, to_come=inf))
+    twice = replace(stand, change=4.0 * once.change, to_come=inf).renewed(contact)
     assert twice.to_come == pytest.approx(once.change / 3.0)
 
 
 def located(nip, geometry):
     """Return the solution node by node from which ends are placed first."""
-    kernels = pair_kernels(nip, geometry)
-    model, width = rn.Model(geometry=geometry), half_width_guess(nip, kernels)
-    (found,) = by_nodes(nip, model, kernels, width, SIZES[:1])
+    contact = RollingContact(nip, rn.Model(geometry=geometry), pair_kernels(nip, geometry))
+    (found,) = by_nodes(contact, half_width_guess(nip, contact.kernels), SIZES[:1])
     return found
 
 

@@ -238,7 +238,7 @@ def test_losses_of_zones_of_slip():
 def test_the_error_of_a_loss_counts_reversed_slip():
     solution = solved(VISCOUS["free"], "linear")
     spent = replace(spent_by(solution), reversed_slip=1.0)
-    claimed = secondary_claims(solution.nip, "linear", solution.final, spent)
+    claimed = secondary_claims(solution.final, spent)
     assert claimed["dissipation_friction"] == solution.nip.speed
 
 
@@ -247,7 +247,7 @@ def test_a_torque_claims_how_far_it_is_off_its_moment(geometry):
     """Only in "finite" may the loss by slip be as far off: "second" errs in the viscous one."""
     solution = solved(VISCOUS["free"], geometry)
     spent = replace(spent_by(solution), moment_upper=9.0)
-    claimed = secondary_claims(solution.nip, geometry, solution.final, spent)
+    claimed = secondary_claims(solution.final, spent)
     off = 9.0 - spent.driving_upper
     assert claimed["torque_upper"] == pytest.approx(solution.nip.upper.radius * off)
     slip = solution.nip.speed * off
@@ -259,4 +259,4 @@ def test_a_torque_claims_how_far_it_is_off_its_moment(geometry):
 
 def spent_by(solution, **other):
     state = replace(solution.final.state, **other)
-    return powers(solution.nip, solution.model.geometry, replace(solution.final, state=state))
+    return powers(replace(solution.final, state=state))

@@ -36,7 +36,7 @@ def _errors(number, geometry=None):
         return None
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
-    search = MembraneSearch(case.nip, model, solution.kernels)
+    search = MembraneSearch(case.nip, model, solution.final.contact.kernels)
     zones, count = refined.iterate.zones, round(2.2 * solution.solver.elements)
     try:
         fine = search.settle_zones(zones, count, refined.iterate, END_TOLERANCE)
@@ -211,7 +211,7 @@ def _errors_below(number):
     # a twentieth of the tolerance; not where refinement stops, but matrices are shared
     iterate, model = solution.refined.iterate, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
-    search = PlateSearch(case.nip, model, solution.kernels)
+    search = PlateSearch(case.nip, model, solution.final.contact.kernels)
     fine = search.settle_zones(iterate.zones, count, iterate, END_TOLERANCE)
     if not fine.settled:
         return None

@@ -344,7 +344,7 @@ def test_slip_both_ways_below_a_stiff_sheet_is_found(tolerance):
 def test_a_sheet_without_pressure_on_one_side_did_not_settle():
     # the violation of conditions is infinite there, which no sentence should say
     refined = SimpleNamespace(iterate=SimpleNamespace(settled=False), residual=inf)
-    is_met, said = sheet_verdict(nip_with(BOARD), LINEAR, refined, None)
+    is_met, said = sheet_verdict(refined, None)
     assert not is_met
     assert "no pressure was found on one of them" in said
     assert "inf" not in said
@@ -373,7 +373,7 @@ def test_random_plates_that_were_not_verified(number):
 def test_a_plate_that_is_not_verified_says_why():
     iterate = SimpleNamespace(settled=False, misplacement=2e-3)
     refined = SimpleNamespace(iterate=iterate, residual=1e-3)
-    is_met, said = _verdict(nip_with(BOARD), LINEAR, refined, (None, None))
+    is_met, said = _verdict(refined, (None, None))
     assert not is_met
     assert "did not settle (they still moved by 0.2 % of the width)" in said
 

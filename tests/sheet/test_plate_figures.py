@@ -19,7 +19,7 @@ def iterate():
     model = rn.Model(geometry="linear")
     found = rn.solve(case.nip, model)
     assert found.nip_width < 0.25 * case.nip.sheet.thickness
-    search = PlateSearch(case.nip, model, found.kernels)
+    search = PlateSearch(case.nip, model, found.final.contact.kernels)
     return lambda count: search.settle_zones(
         found.refined.iterate.zones, count, found.refined.iterate, 0.01
     ), search

@@ -249,8 +249,8 @@ def test_the_verdict_asks_for_the_creepage_on_either_side(pulled, place, side):
     values = refined.errors.values.copy()
     values[place] = 3.0 * pulled.model.tolerance * scales(pulled.nip, refined.figures)[place]
     worse = replace(refined, errors_by_side=(SheetFigures(values),))
-    assert sheet_verdict(pulled.nip, pulled.model, refined, pulled.final)[0]
-    is_met, status = sheet_verdict(pulled.nip, pulled.model, worse, pulled.final)
+    assert sheet_verdict(refined, pulled.final)[0]
+    is_met, status = sheet_verdict(worse, pulled.final)
     assert not is_met
     assert f"creepage on the {side} roller is 3.0e-03 (relative), 3.0 times" in status
 

@@ -7,9 +7,8 @@ import numpy as np
 from rollnip.contact import ContactZone, State
 from rollnip.contact.problem import Array
 from rollnip.influence import displacement_matrix, strain_matrix
-from rollnip.model import RINGS, Geometry
-from rollnip.nip import Nip
-from rollnip.rolling import MeshSolution, PairFields, PairKernels, hoop_curvature
+from rollnip.model import RINGS
+from rollnip.rolling import MeshSolution, PairFields, hoop_curvature
 
 
 def fine_points(final: MeshSolution) -> Array:
@@ -38,19 +37,17 @@ def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: flo
     return out
 
 
-def surface_strain(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution, *, side: str
-) -> Array:
+def surface_strain(x: Array, final: MeshSolution, *, side: str) -> Array:
     """Return the strain of one surface at ``x``: du_x/dx, or in rings the stretch less 1."""
-    upper = side == "upper"
+    nip, kernels, upper = final.nip, final.contact.kernels, side == "upper"
     roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
     if surface is None:
         return np.zeros(x.size)
     p, q = final.pressure, final.shear if upper else -final.shear
     strain, slope = _of_surface(strain_matrix(surface.together, x, final.nodes), p, q)
-    if geometry not in RINGS:
+    if final.geometry not in RINGS:
         return strain
-    hoop = hoop_curvature(roller, geometry)
+    hoop = hoop_curvature(roller, final.geometry)
     u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)
     held, second = kernels.held, kernels.second_upper if upper else kernels.second_lower
     if held is None and second is None:

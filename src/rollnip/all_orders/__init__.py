@@ -21,6 +21,5 @@ stop, `nearby` the start from a similar nip. With a sheet see `rollnip.sheet.fin
 """
 
 from rollnip.all_orders.iteration import refine_all_orders, with_second_order
-from rollnip.all_orders.nearby import Nearby
 
-__all__ = ["Nearby", "refine_all_orders", "with_second_order"]
+__all__ = ["refine_all_orders", "with_second_order"]

@@ -75,7 +75,7 @@ class PairCorrection:
         upper = response(nip.upper, kernels.upper, bodies[0])
         return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), cut_factor)
 
-    def of_contact(self, latest: MeshSolution, kernels: PairKernels) -> tuple[SecondFields, bool]:
+    def of_contact(self, latest: MeshSolution) -> tuple[SecondFields, bool]:
         """Return the correction of a solution without a sheet, see `of_tractions`.
 
         Where friction grips a stiff skin the stretch of both surfaces belongs to it. The correction
@@ -84,16 +84,17 @@ class PairCorrection:
         """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
-        has_several_zones = len(latest.zones) > 1
+        held, has_several_zones = latest.contact.kernels.held, len(latest.zones) > 1
         correction, is_full_load = self.of_tractions(
-            sides, latest.state.creepage, kernels.held, has_several_zones=has_several_zones
+            sides, latest.state.creepage, held, has_several_zones=has_several_zones
         )
         if not grips_skin(self.nip):
             return correction, is_full_load
-        upper, lower = (
-            _stretch_beyond(self.nip, kernels, side, correction, latest) for side in (0, 1)
+        stretch = (
+            _stretch_beyond(latest, correction, side=0),
+            _stretch_beyond(latest, correction, side=1),
         )
-        return replace(correction, stretch=(upper, lower)), is_full_load
+        return replace(correction, stretch=stretch), is_full_load
 
     def of_tractions(
         self,
@@ -152,9 +153,7 @@ class PairCorrection:
         return smooth, is_full_load
 
 
-def _stretch_beyond(
-    nip: Nip, kernels: PairKernels, side: int, correction: SecondFields, latest: MeshSolution
-) -> Stretch:
+def _stretch_beyond(latest: MeshSolution, correction: SecondFields, *, side: int) -> Stretch:
     """Return the stretch of a surface beyond the linear one under the tractions of a contact.
 
     It is the stretch by linear displacements and correction together, less that of linear theory,
@@ -165,8 +164,8 @@ def _stretch_beyond(
         return Stretch()
     x = np.union1d(columns.x, latest.nodes)
     flat = latest.mesh.linear_displacements_at(x, latest.state)
-    hoops = np.array(kernels.hoops)[:, None]
-    beyond = stretch_excess(x, nip, "finite", flat + correction.at(x))
+    hoops = np.array(latest.contact.kernels.hoops)[:, None]
+    beyond = stretch_excess(x, latest.nip, "finite", flat + correction.at(x))
     beyond -= linear_stretch(x[1:] - x[:-1], hoops, *flat.rows)
     total = np.append(0.0, np.cumsum(beyond[side]))[np.searchsorted(x, columns.x)]
     return Stretch(((1.0, Spline.natural_cubic(columns.x, total)),))

@@ -18,22 +18,23 @@ from rollnip.all_orders.contact_stages import (
     second_contact,
 )
 from rollnip.all_orders.corrections import PairCorrection
-from rollnip.all_orders.nearby import Nearby
+from rollnip.all_orders.nearby import contact_nearby
 from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.finite import NoEquilibriumError
 from rollnip.influence import KernelCache, SecondResponse
-from rollnip.model import Geometry, Model
+from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Stretch
-from rollnip.rolling.iterations import change_of, with_residual
+from rollnip.rolling.free_ends import is_verified
+from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.lengths import grips_skin, skin_thickness
 from rollnip.rolling.mesh_solution import FailureCause, IterationFailure, MeshSolution
 from rollnip.rolling.refinement import IsTooDeep
-from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.rolling_contact import RollingContact
 
 MOST_CORRECTIONS = MOST_ITERATIONS  # with one cut-off
 SMALL_CHANGE = 0.05  # change of the correction in an iteration below which that may be the last one
@@ -48,104 +49,108 @@ SKIN_TOLERANCE = 1e-3
 
 
 def with_second_order(
-    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float, cache: KernelCache
-) -> PairKernels:
-    """Return influence functions with responses of second order, for a contact of about this size.
-
-    Unchanged in other geometries than "second". ``half_width`` in [mm].
-    """
-    if geometry != "second":
-        return kernels
+    contact: RollingContact, half_width: float, cache: KernelCache
+) -> RollingContact:
+    """Return a contact of about this half-width [mm] with responses of second order."""
+    speed = contact.nip.speed
 
     def response(roller: Roller) -> SecondResponse | None:
-        if roller.is_rigid or roller.core:
-            return None
-        return cache.second(roller, nip.speed, half_width)
+        return None if roller.is_rigid or roller.core else cache.second(roller, speed, half_width)
 
-    return replace(kernels, second_upper=response(nip.upper), second_lower=response(nip.lower))
+    upper, lower = response(contact.nip.upper), response(contact.nip.lower)
+    return replace(
+        contact, kernels=replace(contact.kernels, second_upper=upper, second_lower=lower)
+    )
+
+
+def with_skin_tolerance(nip: Nip, model: Model) -> Model:
+    """Return the model, where there is a skin with a tolerance of `SKIN_TOLERANCE` at most."""
+    if skin_thickness(nip) == 0.0:
+        return model
+    return replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
 
 
 def refine_all_orders(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
+    contact: RollingContact,
     half_width: float,
     cache: KernelCache,
     is_too_deep: IsTooDeep,
-    near: Nearby | None = None,
-) -> tuple[PairKernels, MeshSolution]:
+    near: MeshSolution | None = None,
+) -> MeshSolution:
     """Solve a contact in the geometry "finite", by iteration of contact and correction.
 
     Parameters
     ----------
-    kernels : influence functions without finite strain.
+    contact : with influence functions without finite strain.
     half_width : first guess [mm].
     is_too_deep : tells which solutions press a layer in too far.
     near : the solution of a similar nip, from which the iteration starts if it can.
 
     Returns
     -------
-    The influence functions with the last correction, and the solution with it. Where the iteration
-    does not converge, that solution is not ``settled``, and ``failure`` says how far it got.
+    The solution with the last correction, which its contact holds. Where the iteration does not
+    converge, that solution is not ``settled``, and ``failure`` says how far it got.
     """
-    if skin_thickness(nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
+    nip = contact.nip
+    contact = contact.with_model(with_skin_tolerance(nip, contact.model))
     if grips_skin(nip):
-        kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
-    second = partial(with_second_order, kernels, nip, "second", half_width, cache)
-    start, latest, stage = first_contact(
-        nip, model, kernels, half_width, None if grips_skin(nip) else second, is_too_deep
+        contact = contact.holding(replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
+    second = partial(with_second_order, contact, half_width, cache)
+    latest, stage = first_contact(
+        contact, half_width, None if grips_skin(nip) else second, is_too_deep
     )
     failure: IterationFailure | None = None
     if latest.settled and is_too_deep(latest, is_rough=True):
         failure = IterationFailure("depth", 0, inf)
     elif latest.settled and latest.figures.peak_pressure > 0.0:
-        strain = surface_strain_in_nip(nip, model.geometry, latest)
-        found_nearby = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
+        strain = surface_strain_in_nip(latest)
+        found_nearby = _from_nearby(contact, (half_width, strain), near, is_too_deep)
         if found_nearby is not None:
             return found_nearby
-        if stage is ContactStage.COARSE and start is not kernels:
-            start, latest, stage = second_contact(nip, model, second(), latest, strain)
+        holds_second_order = latest.contact.kernels is not contact.kernels
+        if stage is ContactStage.COARSE and holds_second_order:
+            latest, stage = second_contact(contact, second(), latest)
         for cut_factor in CUT_FACTORS:
-            correction = PairCorrection.of(nip, kernels, half_width, strain, cut_factor)
-            found = _iterate(nip, model, (start, latest), correction, stage, is_too_deep)
+            correction = PairCorrection.of(nip, contact.kernels, half_width, strain, cut_factor)
+            found = _iterate(contact, latest, correction, stage, is_too_deep)
             if not isinstance(found, IterationFailure):
                 return found
             failure = found
             if failure.cause == "balance" and failure.iterations == 0:
                 break  # the first tractions have no equilibrium, whatever the cut-off
-    return start, replace(latest, settled=False, failure=failure)
+    return replace(latest, settled=False, failure=failure)
 
 
 def _from_nearby(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
+    contact: RollingContact,
     sizes: tuple[float, float],
-    near: Nearby | None,
+    near: MeshSolution | None,
     is_too_deep: IsTooDeep,
-) -> tuple[PairKernels, MeshSolution] | None:
+) -> MeshSolution | None:
     """Solve by iteration from the solution of a similar nip; None where that does not succeed.
 
     ``sizes``: half-width of the contact [mm] and strain of its surface.
     """
     half_width, strain = sizes
-    start = None if near is None else near.first_contact(nip, model, kernels, half_width)
-    if near is None or start is None:
+    start = None if near is None else contact_nearby(near, contact, half_width)
+    if start is None:
         return None
-    correction = PairCorrection.of(nip, kernels, half_width, strain, bodies=near.bodies)
-    found = _iterate(nip, model, start, correction, ContactStage.REFINED, is_too_deep)
+    held = start.contact.kernels.held
+    assert held is not None
+    correction = PairCorrection.of(
+        contact.nip, contact.kernels, half_width, strain, bodies=held.bodies
+    )
+    found = _iterate(contact, start, correction, ContactStage.REFINED, is_too_deep)
     return None if isinstance(found, IterationFailure) else found
 
 
 def _iterate(
-    nip: Nip,
-    model: Model,
-    start: tuple[PairKernels, MeshSolution],
+    contact: RollingContact,
+    latest: MeshSolution,
     correction: PairCorrection,
     stage: ContactStage,
     is_too_deep: IsTooDeep,
-) -> tuple[PairKernels, MeshSolution] | IterationFailure:
+) -> MeshSolution | IterationFailure:
     """Iterate contact and correction, with one cut-off.
 
     On a coarse mesh as long as the correction changes much, then on a refined one until the contact
@@ -154,44 +159,44 @@ def _iterate(
 
     Parameters
     ----------
-    start : influence functions with the first correction, and the contact solved with it.
+    latest : the solution with the first correction.
     correction : the finite elements.
-    stage : of that contact.
+    stage : of that solution.
     """
-    kernels, latest = start
     change, restarts, mixer = inf, 0, AndersonMixer(places_by_the_edges(_edges(latest)))
-    best = BestSolution[tuple[PairKernels, MeshSolution]]()
+    best, tolerance = BestSolution[MeshSolution](), contact.tolerance
     iterations = 0
     cause: FailureCause = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
-            new, is_full_load = correction.of_contact(latest, kernels)
+            new, is_full_load = correction.of_contact(latest)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
             break
         iterations = iteration + 1
-        updated = replace(kernels, held=new)
-        before, change = change, _change_of_terms(nip, model, updated, latest)
+        updated = contact.holding(new)
+        before, change = change, _change_of_terms(updated, latest)
         if stage is ContactStage.REFINED and change < SMALL_CHANGE and is_full_load:
-            checked = _with_own_correction(nip, model, updated, latest, change)
-            violation, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
-            if best.may_stop((updated, checked), violation, change / model.tolerance, cut):
+            checked = _with_own_correction(updated, latest, change)
+            violation, cut = checked.residual / tolerance, checked.cut / tolerance
+            if best.may_stop(checked, violation, change / tolerance, cut):
                 cause = "conditions"
                 break
             if iteration == 0:  # with a correction of other tractions: no measure for later ones
                 best = BestSolution()
-        accelerated = replace(kernels, held=mixer.mixed(kernels.held or NO_SECOND_ORDER, new))
-        kernels, latest = accelerated, _holding(latest, accelerated)
-        to_come = min(change, to_come_after(change, before)) / model.tolerance
+        held = latest.contact.kernels.held or NO_SECOND_ORDER
+        accelerated = contact.holding(mixer.mixed(held, new))
+        latest = latest.with_correction_of(accelerated)
+        to_come = min(change, to_come_after(change, before)) / tolerance
         deep = stage is ContactStage.COARSE and is_too_deep(latest, is_rough=False)
         if deep and is_full_load and to_come <= NEARLY_CONVERGED:
-            return accelerated, latest
+            return latest
         was, convergence = stage, Convergence(change, to_come if is_full_load and not deep else inf)
-        found, stage = next_contact(nip, model, accelerated, latest, stage, convergence)
+        found, stage = next_contact(latest, stage, convergence)
         may_restart = best.found is None and restarts < _MOST_RESTARTS
         if not found.settled and stage is not ContactStage.FINE and may_restart:
             restarts += 1
-            kernels, found, stage = restart(nip, model, (accelerated, updated), latest)
+            found, stage = restart(accelerated, updated, 0.5 * latest.figures.nip_width)
         if not found.settled:
             cause = "contact"
             break
@@ -209,36 +214,36 @@ def _edges(latest: MeshSolution) -> tuple[float, float]:
 
 
 def _with_own_correction(
-    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution, change: float
+    contact: RollingContact, latest: MeshSolution, change: float
 ) -> MeshSolution:
     """Return a solution with its violation of the contact conditions under its own correction.
 
     The stretch is that of the displacements, even where another one was held. Where the conditions
     are met, they are evaluated once more with the correction before the low-pass filter; ``cut`` is
     the violation then.
+
+    Parameters
+    ----------
+    contact : holding the correction of the solution.
+    change : of the finite-strain terms by this correction.
     """
-    assert kernels.held is not None
-    own = replace(kernels, held=replace(kernels.held, stretch=None))
-    checked = with_residual(nip, model, own, _holding(latest, own))
+    held = contact.kernels.held
+    assert held is not None
+    own = contact.holding(replace(held, stretch=None))
+    checked = with_residual(latest.with_correction_of(own))
     change = largest(change, latest.geometry_change)
-    checked = replace(checked, geometry_change=change, settled=True)
-    if not checked.residual <= model.tolerance:
+    checked = replace(checked, contact=contact, geometry_change=change, settled=True)
+    if not is_verified(checked):
         return checked
-    uncut = replace(own, held=replace(kernels.held.uncut, stretch=None))
-    cut = with_residual(nip, model, uncut, _holding(checked, uncut)).residual
-    return replace(checked, cut=cut)
+    uncut = contact.holding(replace(held.uncut, stretch=None))
+    return replace(checked, cut=with_residual(checked.with_correction_of(uncut)).residual)
 
 
-def _holding(latest: MeshSolution, kernels: PairKernels) -> MeshSolution:
-    """Return a solution whose mesh holds the correction of some influence functions."""
-    return replace(latest, mesh=latest.mesh.holding(kernels))
-
-
-def _change_of_terms(nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution) -> float:
+def _change_of_terms(contact: RollingContact, latest: MeshSolution) -> float:
     """Return by how much another correction changes the finite-strain terms of a solution.
 
     Relative to its first-order terms.
     """
-    mesh = _holding(latest, kernels).mesh
-    own = lagged_terms(nip, model.geometry, mesh, latest.state)
-    return change_of(own, latest.lagged, mesh, nip, latest.state)
+    mesh = latest.mesh.holding(contact.kernels)
+    own = lagged_terms(contact, mesh, latest.state)
+    return own.change_from(latest.lagged, contact, mesh, latest.state)

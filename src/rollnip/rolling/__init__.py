@@ -35,13 +35,13 @@ from rollnip.rolling.mesh_solution import (
     Figures,
     IterationFailure,
     MeshSolution,
-    has_grip,
     peak_at,
     peak_pressure,
     peaks_alike,
 )
 from rollnip.rolling.power_balance import Powers, powers, rates_of
 from rollnip.rolling.refinement import refine
+from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     PairKernels,
@@ -57,10 +57,10 @@ __all__ = [
     "PairFields",
     "PairKernels",
     "Powers",
+    "RollingContact",
     "claims",
     "fields_at",
     "half_width_guess",
-    "has_grip",
     "hoop_curvature",
     "long_columns",
     "model_shares",

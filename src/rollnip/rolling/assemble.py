@@ -16,12 +16,14 @@ from rollnip.contact import (
     contact_zones,
 )
 from rollnip.contact.problem import Array
-from rollnip.model import FINITE, RINGS, Geometry
+from rollnip.model import FINITE, RINGS
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.kinematics import stretch_parts, surface_depths
+from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.surface_work import loss_inside, slip_intervals, transmitted
-from rollnip.rolling.surfaces import Mesh, has_no_lagged_terms
+from rollnip.rolling.surfaces import Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,36 +60,35 @@ class LaggedTerms:
             length, offset = (np.interp(places, middles, rate) for rate in rates)
         return LaggedTerms(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
 
-    def change(
-        self, before: LaggedTerms, creepage: float, dx: Array, scales: tuple[float, float, float]
+    def change_from(
+        self, before: LaggedTerms, contact: RollingContact, mesh: Mesh, state: ContactState
     ) -> float:
-        """Return the largest relative change from ``before`` of gap, creep per length and traction.
+        """Return the largest change from ``before``, relative to the first-order terms.
 
-        The change of the creep is a root mean square, as the strain right at an edge varies from
-        mesh to mesh.
-
-        Parameters
-        ----------
-        creepage : of the solution, as factor of the creep lengths.
-        dx : (n,) lengths of the intervals [mm].
-        scales : an approach [mm], a strain and a traction [N/mm] to which changes are relative.
+        The change of the gap is relative to the approach, that of the creep to the creepage, that
+        of the traction to the load on the slope of the gap at an edge. The change of the creep is
+        a root mean square, as the strain right at an edge varies from mesh to mesh.
         """
-        approach, strain, traction = scales
+        curvature, half_nip = contact.nip.curvature, 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
+        slope = curvature * half_nip
+        approach = max(abs(state.approach), 0.5 * curvature * half_nip**2)
         creep = self.creep_offset - before.creep_offset
-        if not isnan(creepage):
-            creep = creep + creepage * (self.creep_length - before.creep_length)
+        if not isnan(state.creepage):
+            creep = creep + state.creepage * (self.creep_length - before.creep_length)
+        strain = sqrt(float(creep @ (creep / mesh.dx)) / float(mesh.dx.sum()))
         changes = [
             float(np.abs(self.clearance - before.clearance).max()) / approach,
-            sqrt(float(creep @ (creep / dx)) / float(dx.sum())) / strain,
+            strain / scale_of_creepage(state.creepage, slope),
         ]
         if self.traction is not None and before.traction is not None:
-            changes.append(abs(self.traction - before.traction) / traction)
+            load = float(mesh.weights @ state.pressure)
+            changes.append(abs(self.traction - before.traction) / (slope * load))
         return largest(*changes)
 
 
-def contact_problem(nip: Nip, mesh: Mesh, lagged: LaggedTerms) -> ContactProblem:
+def contact_problem(contact: RollingContact, mesh: Mesh, lagged: LaggedTerms) -> ContactProblem:
     """Return the contact problem of theory sections 5 and 6, linear in the tractions."""
-    tangential = nip.tangential
+    nip, tangential = contact.nip, contact.nip.tangential
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
@@ -105,16 +106,18 @@ def contact_problem(nip: Nip, mesh: Mesh, lagged: LaggedTerms) -> ContactProblem
     )
 
 
-def initial_terms(nip: Nip, mesh: Mesh) -> LaggedTerms:
+def initial_terms(contact: RollingContact, mesh: Mesh) -> LaggedTerms:
     """Return lagged terms of zero, the traction too where a torque is prescribed."""
     zero = np.zeros(mesh.inner.size)
-    return LaggedTerms(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
+    has_torque = isinstance(contact.nip.tangential, Torque)
+    return LaggedTerms(zero, zero, zero, 0.0 if has_torque else None)
 
 
-def lagged_terms(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> LaggedTerms:
+def lagged_terms(contact: RollingContact, mesh: Mesh, state: ContactState) -> LaggedTerms:
     """Return the lagged terms that follow from a solution on a mesh (theory section 6)."""
-    if has_no_lagged_terms(nip, geometry):
-        return initial_terms(nip, mesh)
+    if contact.has_no_lagged_terms:
+        return initial_terms(contact, mesh)
+    nip, geometry = contact.nip, contact.geometry
     u_linear = mesh.linear_displacements(state)
     u = mesh.with_second(u_linear, state)
     clearance = length = offset = np.zeros(mesh.inner.size)
@@ -126,16 +129,16 @@ def lagged_terms(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
         )
         clearance = depth - approximate
     if geometry in RINGS and nip.friction > 0.0:
-        length, offset = _stretch_terms(nip, geometry, mesh, u_linear, u)
-    if geometry in FINITE:
+        length, offset = _stretch_terms(contact, mesh, u_linear, u)
+    if contact.has_finite_strain:
         lean = _lean(nip, mesh, state, u)
     if isinstance(nip.tangential, Torque):
-        traction = _traction_for_torque(nip, geometry, mesh, state, u)
+        traction = _traction_for_torque(contact, mesh, state, u)
     return LaggedTerms(clearance, length, offset, traction, lean)
 
 
 def _stretch_terms(
-    nip: Nip, geometry: Geometry, mesh: Mesh, u_linear: Displacements, u: Displacements
+    contact: RollingContact, mesh: Mesh, u_linear: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
     """Return ``creep_length`` and ``creep_offset`` of `LaggedTerms` due to stretch [mm].
 
@@ -145,9 +148,7 @@ def _stretch_terms(
     """
     finer = mesh.finer(u)
     u_linear = finer if u_linear is u else mesh.finer(u_linear)
-    linear, beyond = stretch_parts(
-        mesh.fine.nodes[1:], nip, geometry, mesh.kernels, u_linear, finer
-    )
+    linear, beyond = stretch_parts(mesh.fine.nodes[1:], contact, u_linear, finer)
     excess = linear + beyond
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
 
@@ -160,18 +161,19 @@ def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
 
 
 def _traction_for_torque(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+    contact: RollingContact, mesh: Mesh, state: ContactState, u: Displacements
 ) -> float:
     """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed [N/mm].
 
     It is nan where the lagged terms have diverged; such a solution is not verified.
     """
+    nip = contact.nip
     assert isinstance(nip.tangential, Torque)
     zones = contact_zones(mesh.inner, state, nip.friction)
     slips = slip_intervals(mesh.fine.nodes[1:], zones)
-    pull = float(transmitted(nip, geometry, mesh, state, u, slips)[0][1])
+    pull = float(transmitted(contact, mesh, state, u, slips)[0][1])
     if not isfinite(pull):
         return nan
-    lost = loss_inside("lower", nip, geometry, mesh, state)
+    lost = loss_inside("lower", nip, contact.geometry, mesh, state)
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear))

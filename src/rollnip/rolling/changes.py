@@ -1,4 +1,4 @@
-"""Error estimates from the changes of figures between mesh sizes (Richardson)."""
+"""What is small, and error estimates from changes between mesh sizes (Richardson)."""
 
 from __future__ import annotations
 
@@ -18,6 +18,11 @@ least tenfold.
 """
 ROUNDING = float(np.sqrt(np.finfo(float).eps))
 """Relative difference up to which two numbers that have been computed count as equal."""
+LEAST_SIZE = 0.05
+"""Least size that an error is relative to, over the largest that its figure may have.
+
+A figure that is zero by symmetry has no relative error.
+"""
 
 
 def shown_order(counts: Array, steps: Array) -> Array:
@@ -71,3 +76,8 @@ def to_come_after(change: float, before: float) -> float:
     if change < ROUNDING and before < inf:
         return 0.0
     return change * change / (before - change) if change < before < inf else inf
+
+
+def scale_of_creepage(creepage: float, slope: float) -> float:
+    """Return |creepage|, or `LEAST_SIZE` of the slope of the gap at the edge if that is more."""
+    return max(LEAST_SIZE * slope, abs(creepage))  # in this order: max(a, nan) is a

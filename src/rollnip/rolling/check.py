@@ -11,11 +11,10 @@ import numpy as np
 from rollnip._largest import largest
 from rollnip.contact import ContactZone, State, TurningSlip
 from rollnip.contact.problem import Array
-from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.kinematics import creep_of, stretch_excess, stretch_parts, surface_depths
-from rollnip.rolling.mesh_solution import MeshSolution, creepage_scale
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.surfaces import PairKernels
 
 
@@ -40,26 +39,22 @@ class PairFields:
     creep: Array
 
 
-def fields_at(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
-) -> PairFields:
+def fields_at(x: Array, final: MeshSolution) -> PairFields:
     """Return the fields of a solution at ``x``, computed from its tractions, delta and xi alone."""
-    return _fields(x, nip, geometry, kernels, final, _displacements(x, kernels, final))
+    return _fields(x, final, _displacements(x, final, final.contact.kernels))
 
 
-def fields_between(
-    nip: Nip, geometry: Geometry, kernels: PairKernels, final: MeshSolution
-) -> PairFields:
+def fields_between(final: MeshSolution) -> PairFields:
     """Return the fields of a solution at its nodes, halfway between them, and outside the edges."""
     nodes = final.mesh.nodes
     away = places_outside(nodes, final.figures.nip_width)
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
-    parts = _displacements(new, kernels, final), final.displacements
+    parts = _displacements(new, final, final.mesh.kernels), final.displacements
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
     four = np.concatenate([part.four for part in parts], axis=1)
     u = Displacements(four.take(order, axis=1))
-    return _fields(x[order], nip, geometry, kernels, final, u)
+    return _fields(x[order], final, u)
 
 
 def places_outside(nodes: Array, width: float) -> Array:
@@ -72,8 +67,8 @@ def places_outside(nodes: Array, width: float) -> Array:
     return np.asarray(width * 0.5 ** np.arange(np.log2(width / shortest))[::-1])
 
 
-def _displacements(x: Array, kernels: PairKernels, final: MeshSolution) -> Displacements:
-    """Return the displacements of both surfaces at ``x``, to the order of the model."""
+def _displacements(x: Array, final: MeshSolution, kernels: PairKernels) -> Displacements:
+    """Return the displacements of both surfaces at ``x``, with those that ``kernels`` hold."""
     linear = final.mesh.linear_displacements_at(x, final.state)
     if kernels.is_linear:
         return linear
@@ -83,56 +78,47 @@ def _displacements(x: Array, kernels: PairKernels, final: MeshSolution) -> Displ
     return linear + held.at(x)
 
 
-def _fields(
-    x: Array,
-    nip: Nip,
-    geometry: Geometry,
-    kernels: PairKernels,
-    final: MeshSolution,
-    u: Displacements,
-) -> PairFields:
-    state, u_linear, held = final.state, u, kernels.held
+def _fields(x: Array, final: MeshSolution, u: Displacements) -> PairFields:
+    contact, state = final.contact, final.state
+    u_linear, held = u, contact.kernels.held
     if held is not None and held.stretch is not None:
         u_linear = Displacements(u.four - held.at(x).four)
-    linear, beyond = stretch_parts(x, nip, geometry, kernels, u_linear, u)
-    upper, lower = surface_depths(x, nip, geometry, u)
+    linear, beyond = stretch_parts(x, contact, u_linear, u)
+    upper, lower = surface_depths(x, contact.nip, contact.geometry, u)
     return PairFields(
         x=x,
         pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
         gap=upper + lower - state.approach,
-        creep=creep_of(x[1:] - x[:-1], geometry, linear + beyond, state.creepage),
+        creep=creep_of(x[1:] - x[:-1], contact.geometry, linear + beyond, state.creepage),
     )
 
 
 def residual(
-    nip: Nip,
-    fields: PairFields,
-    final: MeshSolution,
-    shortest: float,
-    left_out: Sequence[TurningSlip] = (),
+    final: MeshSolution, fields: PairFields, left_out: Sequence[TurningSlip] = ()
 ) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
     It is the largest of: penetration over the approach; p times gap over peak pressure and
     approach; tension over the peak pressure; shear beyond the traction bound; drift of sticking
     surfaces over |xi| times the nip width; slip in the direction of its own shear; errors of load
-    and traction. The traction bound is not checked within ``shortest`` [mm] of the ends of zones:
-    slip zones shorter than that are left out, and stick without them has an infinite shear at its
-    end. What the slip ``left_out`` at edges covers is checked neither for that bound nor for drift.
+    and traction. The traction bound is not checked within the length of the shortest zone from the
+    ends of zones: slip zones shorter than that are left out, and stick without them has an infinite
+    shear at its end. What the slip ``left_out`` at edges covers is checked neither for that bound
+    nor for drift.
     """
     figures = final.figures
     peak = figures.peak_pressure
-    depth = _depth(nip, figures.nip_width, figures.approach)
+    depth = _depth(final.nip, figures.nip_width, figures.approach)
     parts = [
         float(np.max(-fields.gap)) / depth,
         float(np.max(fields.pressure * np.abs(fields.gap))) / (peak * depth),
         float(np.max(-final.pressure)) / peak,
-        _load_error(nip, final),
+        _load_error(final),
     ]
-    if nip.friction > 0.0:
-        parts += _friction_errors(nip, fields, final, shortest, left_out)
+    if final.nip.friction > 0.0:
+        parts += _friction_errors(final, fields, left_out)
     return largest(0.0, *parts)
 
 
@@ -145,28 +131,26 @@ def _depth(nip: Nip, width: float, approach: float) -> float:
     return at_edge if nip.has_half_space else max(abs(approach), at_edge)
 
 
-def _load_error(nip: Nip, final: MeshSolution) -> float:
-    if isinstance(nip.normal, LineLoad):
-        return abs(final.figures.load - nip.normal.load) / nip.normal.load
-    return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
+def _load_error(final: MeshSolution) -> float:
+    normal = final.nip.normal
+    if isinstance(normal, LineLoad):
+        return abs(final.figures.load - normal.load) / normal.load
+    return abs(final.state.approach - normal.approach) / normal.approach
 
 
 def _friction_errors(
-    nip: Nip,
-    fields: PairFields,
-    final: MeshSolution,
-    shortest: float,
-    left_out: Sequence[TurningSlip],
+    final: MeshSolution, fields: PairFields, left_out: Sequence[TurningSlip]
 ) -> list[float]:
-    figures = final.figures
-    bound = nip.friction * figures.peak_pressure
+    figures, friction = final.figures, final.nip.friction
+    bound = friction * figures.peak_pressure
+    shortest = final.contact.shortest_zone(figures.nip_width)
     ends = np.array([end for zone in final.zones for end in (zone.start, zone.stop)])
     is_far = np.min(np.abs(final.x[:, None] - ends), axis=1, initial=np.inf) > shortest
     every_creep = fields.creep.copy()
     for slip in left_out:
         is_far &= ~slip.covers(final.x)
         every_creep[slip.covers(fields.x[1:]) | slip.covers(fields.x[:-1])] = 0.0
-    allowed = creepage_scale(nip, figures) * figures.nip_width
+    allowed = final.creepage_scale * figures.nip_width
     errors = [float(final.over_bound[is_far].max(initial=0.0)) / bound]
     for zone in final.zones:
         creep = every_creep[_intervals_in(fields.x, zone)]
@@ -178,7 +162,7 @@ def _friction_errors(
             errors.append(float(np.maximum(-sign * creep, 0.0).sum()) / allowed)
     wanted = final.problem.control.traction
     if wanted is not None:
-        off, limit = abs(float(final.weights @ final.shear) - wanted), nip.friction * figures.load
+        off, limit = abs(float(final.weights @ final.shear) - wanted), friction * figures.load
         errors.append(off / limit if limit > 0.0 else inf)
     return errors
 
@@ -189,10 +173,10 @@ def _intervals_in(x: Array, zone: ContactZone) -> slice:
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
-def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: MeshSolution) -> float:
+def surface_strain_in_nip(final: MeshSolution) -> float:
     """Return the largest strain of either surface in the contact, averaged over each interval."""
     x = final.nodes[1:]
     u = final.mesh.finer(final.displacements)
     touching = final.pressure > 0.0
-    strains = np.abs(stretch_excess(x, nip, geometry, u) / (x[1:] - x[:-1]))
+    strains = np.abs(stretch_excess(x, final.nip, final.geometry, u) / (x[1:] - x[:-1]))
     return float(strains[:, touching].max(initial=0.0))

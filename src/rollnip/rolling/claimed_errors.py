@@ -19,7 +19,7 @@ from rollnip.finite import error_of_long_columns
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.lengths import grips_skin, skin_thickness
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, SecondaryFigures, creepage_scale
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures
 from rollnip.rolling.power_balance import Powers, rates_of
 from rollnip.rolling.secondary import secondary_figures_of, secondary_sizes
 
@@ -48,19 +48,18 @@ II, driven with frictions of 2 to 4, by 0.2 of what they change of it.
 """
 
 
-def claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+def claims(final: MeshSolution) -> dict[str, float]:
     """Return the claimed errors of the figures held to the tolerance, each in its own unit.
 
     The error of a prescribed figure is its deviation from the prescribed value. An error is nan
     where the figure is not defined.
     """
-    figures = final.figures
+    nip, figures, sizes = final.nip, final.figures, _sizes(final)
     out = {name: getattr(final.error, name) for name in _NAMES}
-    sizes = _sizes(nip, figures)
-    for name, share in model_shares(nip, geometry, final).items():
+    for name, share in model_shares(final).items():
         out[name] = largest(out[name], share * sizes[name])
-    if geometry == "finite":
-        long = long_columns(nip, final)
+    if final.geometry == "finite":
+        long = long_columns(final)
         out = {name: largest(error, long * sizes[name]) for name, error in out.items()}
     if _is_peak_unresolved(final):
         out["peak_pressure"] = largest(out["peak_pressure"], figures.peak_pressure)
@@ -77,30 +76,28 @@ def claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float
     return out
 
 
-def long_columns(nip: Nip, final: MeshSolution) -> float:
+def long_columns(final: MeshSolution) -> float:
     """Return the relative error of figures in "finite" by columns of elements that are too long.
 
     Unlike what `model_shares` returns it must meet the tolerance.
     """
-    rollers = (roller for roller in (nip.upper, nip.lower) if roller.layers)
+    rollers = (roller for roller in (final.nip.upper, final.nip.lower) if roller.layers)
     width = final.figures.nip_width
     return max((error_of_long_columns(roller, width) for roller in rollers), default=0.0)
 
 
-def secondary_claims(
-    nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
-) -> dict[str, float]:
+def secondary_claims(final: MeshSolution, spent: Powers) -> dict[str, float]:
     """Return the claimed errors of the figures without a tolerance of their own, in their units.
 
     They are nan where a figure is not defined. ``spent``: the `powers` of the solution.
     """
-    errors = final.secondary_error or SecondaryFigures(*(inf,) * 8)
-    errors = _with_model(errors, nip, geometry, final, spent)
+    nip, geometry = final.nip, final.geometry
+    errors = _with_model(final, spent)
     speed = nan if nip.speed is None else nip.speed
     load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
-    lost = _lost(errors, spent, nip, geometry, final)
-    first, cut = claims(nip, geometry, final), SHARE_OF_CUT * spent.cut
+    lost = _lost(errors, spent, final)
+    first, cut = claims(final), SHARE_OF_CUT * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
         passed = abs(float(final.problem.weights @ final.state.shear))
         cut = largest(cut, power_left(first["creepage"], passed, final))
@@ -132,7 +129,7 @@ def secondary_claims(
         reached = float(final.problem.weights @ final.state.shear)
         out["traction"] = abs(reached - nip.tangential.traction)
     elif isinstance(nip.tangential, Creepage) and geometry in FINITE and isfinite(load):
-        left = model_shares(nip, geometry, final)["creepage"] * creepage_scale(nip, final.figures)
+        left = model_shares(final)["creepage"] * final.creepage_scale
         left *= traction_slope(final)
         out["traction"] = largest(out["traction"], left)
         out["torque_upper"] += nip.upper.radius * left
@@ -181,34 +178,36 @@ def error_of_linear_loss(nip: Nip, width: float) -> float:
     return 0.5 * nip.curvature * width
 
 
-def _with_model(
-    errors: SecondaryFigures, nip: Nip, geometry: Geometry, final: MeshSolution, spent: Powers
-) -> SecondaryFigures:
-    """Return the errors, raised to those of the geometry model where these are larger."""
-    if geometry not in FINITE or final.secondary_error is None:
+def _with_model(final: MeshSolution, spent: Powers) -> SecondaryFigures:
+    """Return the estimated errors, raised to those of the geometry model where these are larger.
+
+    They are inf where nothing is known of them.
+    """
+    if final.secondary_error is None:
+        return SecondaryFigures(*(inf,) * 8)
+    errors = final.secondary_error
+    if not final.contact.has_finite_strain:
         return errors
     figures = secondary_figures_of(spent, final)
-    left = _SECONDARY_SHARE * secondary_sizes(nip, final, figures)
-    if geometry == "second":
-        share = error_of_linear_loss(nip, final.figures.nip_width)
+    left = _SECONDARY_SHARE * secondary_sizes(final, figures)
+    if final.geometry == "second":
+        share = error_of_linear_loss(final.nip, final.figures.nip_width)
         left[4:6] = np.maximum(left[4:6], share * np.array([spent.lost_upper, spent.lost_lower]))
     left[-1] = _SHARE_OF_PEAK_PLACE * final.figures.nip_width
     return SecondaryFigures(*np.maximum(errors.array(), left).tolist())
 
 
-def _lost(
-    errors: SecondaryFigures, spent: Powers, nip: Nip, geometry: Geometry, final: MeshSolution
-) -> float:
+def _lost(errors: SecondaryFigures, spent: Powers, final: MeshSolution) -> float:
     """Return the error of the viscous loss, over V [N/mm]."""
-    rates = rates_of(geometry, final.state.creepage)
+    rates = rates_of(final.geometry, final.state.creepage)
     error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
-    creepage = claims(nip, geometry, final)["creepage"]
+    creepage = claims(final)["creepage"]
     if rates == (1.0, 1.0) or isnan(creepage):
         return error
     return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
 
 
-def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+def model_shares(final: MeshSolution) -> dict[str, float]:
     """Return the relative errors of figures that the geometry model leaves, however fine the mesh.
 
     Violations of the contact conditions come from the waves cut and from the last change of the
@@ -216,6 +215,7 @@ def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str,
     part as an error of the load at a given approach, of which it is about the square; and up to all
     of it as errors of the width and the creepage.
     """
+    geometry = final.geometry
     if geometry not in FINITE:
         return dict.fromkeys(_NAMES, 0.0)
     approach, rest = SHARE_OF_CUT * final.cut, final.cut
@@ -226,13 +226,13 @@ def model_shares(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str,
         rest = final.cut + final.residual
         left |= {"approach": approach, "load": 2.0 * approach, "creepage": rest, "nip_width": rest}
     shares = {name: max(share, left[name]) for name, share in MODEL_SHARES[geometry].items()}
-    if _peaks_within_skin_of_edge(nip, final):
-        case = "gripped" if geometry == "finite" and grips_skin(nip) else geometry
+    if _peaks_within_skin_of_edge(final):
+        case = "gripped" if geometry == "finite" and grips_skin(final.nip) else geometry
         shares["peak_pressure"] = max(shares["peak_pressure"], SHARE_OF_EDGE_PEAK[case])
     return shares
 
 
-def _peaks_within_skin_of_edge(nip: Nip, final: MeshSolution) -> bool:
+def _peaks_within_skin_of_edge(final: MeshSolution) -> bool:
     """Return whether the pressure peak is closer to an edge than a skin is thick.
 
     Fields there vary over lengths as short as that thickness.
@@ -242,7 +242,7 @@ def _peaks_within_skin_of_edge(nip: Nip, final: MeshSolution) -> bool:
     peak = final.x[int(np.argmax(final.pressure))]
     start, stop = final.zones[0].start, final.zones[-1].stop
     to_edge = min(peak - start, stop - peak)
-    return bool(to_edge < min(skin_thickness(nip), 0.25 * (stop - start)))
+    return bool(to_edge < min(skin_thickness(final.nip), 0.25 * (stop - start)))
 
 
 def _is_peak_unresolved(final: MeshSolution) -> bool:
@@ -256,23 +256,25 @@ def _is_peak_unresolved(final: MeshSolution) -> bool:
     return carried.size > 0 and int(np.argmax(final.pressure)) in (carried[0], carried[-1])
 
 
-def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:
+def _sizes(final: MeshSolution) -> dict[str, float]:
     """Return the sizes that errors are relative to; that of the creepage is never zero."""
+    figures = final.figures
     return {
         "approach": abs(figures.approach),
         "load": figures.load,
-        "creepage": creepage_scale(nip, figures),
+        "creepage": final.creepage_scale,
         "nip_width": figures.nip_width,
         "peak_pressure": figures.peak_pressure,
     }
 
 
-def relative_claims(nip: Nip, geometry: Geometry, final: MeshSolution) -> dict[str, float]:
+def relative_claims(final: MeshSolution) -> dict[str, float]:
     """Return the claimed errors over the sizes of their figures, for figures that are defined."""
-    figures, claimed = final.figures, claims(nip, geometry, final)
+    figures, claimed = final.figures, claims(final)
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return {}
-    sizes = _sizes(nip, figures)
-    undefined = {"approach"} if nip.has_half_space else set()
+    undefined = {"approach"} if final.nip.has_half_space else set()
     undefined |= set() if isfinite(figures.creepage) else {"creepage"}
-    return {name: claimed[name] / size for name, size in sizes.items() if name not in undefined}
+    return {
+        name: claimed[name] / size for name, size in _sizes(final).items() if name not in undefined
+    }

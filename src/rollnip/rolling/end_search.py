@@ -15,10 +15,18 @@ import numpy as np
 from rollnip.contact import NEAR_ENOUGH, Layout, elements_of_zones
 from rollnip.contact.problem import Array
 from rollnip.contact.secants import Secants
-from rollnip.rolling.mesh_solution import LEAST_SIZE, Figures, MeshSolution
+from rollnip.rolling.changes import LEAST_SIZE
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.neglected_slip import creepage_by_ends
-from rollnip.rolling.zone_search import SearchState
-from rollnip.rolling.zone_solver import Shape, ZoneSolver, crowds_more
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_solver import (
+    Shape,
+    crowding_for,
+    crowds_more,
+    singular,
+    solve_with_zones,
+)
 
 
 @dataclass(slots=True)
@@ -27,7 +35,7 @@ class EndSearch:
 
     Attributes
     ----------
-    solver : of the contact with given zones.
+    contact : to solve.
     count : rough number of elements.
     state : state of the search, with the zones of the last mesh, or of the next one.
     least_misplacement : the smallest so far, over the width.
@@ -44,7 +52,7 @@ class EndSearch:
     misplacement : distance of the ends from the proposed places, over the width.
     """
 
-    solver: ZoneSolver
+    contact: RollingContact
     count: int
     state: SearchState
     least_misplacement: float
@@ -61,11 +69,11 @@ class EndSearch:
     misplacement: float = field(init=False)
 
     @classmethod
-    def of(cls, solver: ZoneSolver, start: SearchState, count: int) -> EndSearch:
+    def of(cls, contact: RollingContact, start: SearchState, count: int) -> EndSearch:
         """Begin a search with the zones of ``start``."""
         secants = Secants(start.misplacement * start.layout.width, start.jacobian)
-        state = solver.renewed(start)
-        return cls(solver, count, state, start.misplacement, secants, start.end_sensitivity)
+        state = start.renewed(contact)
+        return cls(contact, count, state, start.misplacement, secants, start.end_sensitivity)
 
     @property
     def layout(self) -> Layout:
@@ -75,7 +83,7 @@ class EndSearch:
     @property
     def second_order_settled(self) -> bool:
         """Whether the second order will no longer change."""
-        return self.solver.kernels.is_fixed or self.state.second_order_settled
+        return self.contact.kernels.is_fixed or self.state.second_order_settled
 
     @property
     def is_near(self) -> bool:
@@ -88,21 +96,21 @@ class EndSearch:
         if self.end_sensitivity is None:
             return None
         error = self.end_sensitivity.times(self.next_layout.distance(self.layout))
-        unseen = creepage_by_ends(self.solver.nip, self.layout, self.proposed)
+        unseen = creepage_by_ends(self.contact.nip, self.layout, self.proposed)
         return replace(error, creepage=error.creepage + unseen)
 
     def solve_mesh(self) -> None:
         """Solve on the next mesh, and find where its solution puts the ends."""
         self.meshes += 1
-        solver, layout, shape = self.solver, self.layout, self._choose_shape()
-        self.latest, self.proposed = solver.solve(self.state, shape)
+        layout, shape = self.layout, self._choose_shape()
+        self.latest, self.proposed = solve_with_zones(self.contact, self.state, shape)
         self.vanishing = self.secants.vanishing(layout, self.proposed)
         self.misplacement = self.proposed.distance(layout)
         self.least_misplacement = min(self.least_misplacement, self.misplacement)
         self.next_layout = self.secants.next_layout(
             layout,
             self.proposed,
-            solver.singular(self.latest, layout),
+            singular(self.latest, layout),
             only_ends_move=self.latest.settled and self.second_order_settled,
         )
         self._learn_sensitivity()
@@ -113,7 +121,8 @@ class EndSearch:
         Elements are kept while ends are sought, as another mesh would shift the ends.
         """
         layout = self.layout
-        crowding = self.solver.crowding(layout, self.least_misplacement * layout.width)
+        coarsest = self.least_misplacement * layout.width
+        crowding = crowding_for(self.contact, layout, coarsest)
         if self.shape is None or crowds_more(crowding, self.shape[1]):
             self.shape = elements_of_zones(layout.breaks, self.count, crowding), crowding
             self.secants.forget()
@@ -126,7 +135,7 @@ class EndSearch:
         A single mesh uses what another size has shown, unless its zones change too much for that.
         """
         layout, figures = self.layout, self.latest.figures
-        breaks, tolerance = self.next_layout.breaks, self.solver.model.tolerance
+        breaks, tolerance = self.next_layout.breaks, self.contact.tolerance
         if self.last is not None:
             before, figures_before = self.last
             step = layout.distance(before)
@@ -152,15 +161,14 @@ class EndSearch:
         """Go on with other zones."""
         self.tried.add(other.layout.key)
         self.secants = Secants(self.least_misplacement * self.layout.width)
-        self.state, self.shape = self.solver.renewed(other), None
+        self.state, self.shape = other.renewed(self.contact), None
         self.end_sensitivity, self.meshes = None, 0
 
     def move_ends(self) -> None:
         """Go on with the same zones, and their ends at the next places."""
         state = self.state
-        self.state = self.solver.renewed(
-            SearchState(self.next_layout, self.latest, state.change, state.to_come)
-        )
+        moved = SearchState(self.next_layout, self.latest, state.change, state.to_come)
+        self.state = moved.renewed(self.contact)
 
     def result(self) -> SearchState:
         """Return the state of the search with the ends at their next places."""

@@ -18,7 +18,6 @@ from rollnip.rolling.mesh_solution import (
     Figures,
     MeshSolution,
     SecondaryFigures,
-    creepage_scale,
 )
 from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
 from rollnip.rolling.secondary import secondary_sizes
@@ -66,7 +65,7 @@ class RefinementLevel:
 
 
 def with_errors(
-    nip: Nip, latest: MeshSolution, history: list[RefinementLevel], end_error: Figures | None
+    latest: MeshSolution, history: list[RefinementLevel], end_error: Figures | None
 ) -> MeshSolution:
     """Return the solution with the estimated errors of the figures held to the tolerance.
 
@@ -76,16 +75,16 @@ def with_errors(
     figures if their ends are equally misplaced, if the elements of all are too long, or if all lack
     the same slip.
     """
-    figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
+    figures, edge = latest.figures, edge_within_memory(latest.nip, latest.mesh)
     # Edges are misplaced by that much. The creepage at a given traction varies as the square of the
     # width, as the load does. Approach, load and peak pressure depend on edges to second order.
     creepage = 0.0
-    if not isinstance(nip.tangential, Creepage):
-        creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
-        creepage += sum(creepage_by_slip(nip, figures, one) for one in latest.slip_left_out)
+    if not isinstance(latest.nip.tangential, Creepage):
+        creepage = 2.0 * latest.creepage_scale * edge / figures.nip_width
+        creepage += sum(creepage_by_slip(latest, one) for one in latest.slip_left_out)
         creepage += overlooked_states(latest)[1]
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
-    error = estimated_error(nip, latest, history).array() + unseen
+    error = estimated_error(latest, history).array() + unseen
     if end_error is not None:
         error += end_error.array()
     return replace(latest, error=Figures(*error.tolist()))
@@ -114,17 +113,13 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
     return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
-def with_secondary_errors(
-    nip: Nip, latest: MeshSolution, history: list[RefinementLevel]
-) -> MeshSolution:
+def with_secondary_errors(latest: MeshSolution, history: list[RefinementLevel]) -> MeshSolution:
     """Return the solution with its estimated errors of the secondary figures, made on demand."""
-    make = partial(_secondary_error, nip, latest, tuple(history))
+    make = partial(_secondary_error, latest, tuple(history))
     return replace(latest, make_secondary_error=make)
 
 
-def _secondary_error(
-    nip: Nip, latest: MeshSolution, history: Sequence[RefinementLevel]
-) -> SecondaryFigures:
+def _secondary_error(latest: MeshSolution, history: Sequence[RefinementLevel]) -> SecondaryFigures:
     """Return the estimated errors of the secondary figures, from two mesh sizes or more.
 
     As for `Figures`, the last change between meshes is taken with the order that they show, earlier
@@ -136,16 +131,16 @@ def _secondary_error(
     counts = np.array([level.count for level in history], dtype=float)
     values = np.array([level.secondary.array() for level in history])
     order = np.ones(8) if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
-    sizes = secondary_sizes(nip, latest, history[-1].secondary)
+    sizes = secondary_sizes(latest, history[-1].secondary)
     error = errors_from_changes(counts, values, order)
     error = np.maximum(error, _LEAST_SECONDARY_ERROR * sizes / counts[-1] ** 2)
-    if not isinstance(nip.tangential, Traction):
+    if not isinstance(latest.nip.tangential, Traction):
         error[1:3] = np.maximum(error[1:3], error[0])  # torques contain the traction
-    share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
+    share = 2.0 * edge_within_memory(latest.nip, latest.mesh) / latest.figures.nip_width
     return SecondaryFigures(*(error + share * sizes).tolist())
 
 
-def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLevel]) -> Figures:
+def estimated_error(latest: MeshSolution, history: list[RefinementLevel]) -> Figures:
     """Return the estimated discretisation error of each figure from its changes between meshes.
 
     It is inf where there is a single mesh. No error is estimated below the least error that meshes
@@ -170,7 +165,7 @@ def estimated_error(nip: Nip, latest: MeshSolution, history: list[RefinementLeve
         order[_PEAK] = 1.0
     change = errors_from_changes(counts, values, order)
     scales = np.abs(figures.array())
-    scales[_CREEPAGE] = creepage_scale(nip, figures)
+    scales[_CREEPAGE] = latest.creepage_scale
     floor = LEAST_ERROR * scales / count**2
     floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed

@@ -14,8 +14,6 @@ import numpy as np
 
 from rollnip._largest import largest
 from rollnip.contact import Layout, cubic_error, more_elements
-from rollnip.model import FINITE, Model
-from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.estimates import (
     LEAST_ERROR,
@@ -24,12 +22,12 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
 )
 from rollnip.rolling.iterations import with_residual
-from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import negligible_slip
-from rollnip.rolling.placing import Placing
+from rollnip.rolling.placing import place_ends
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.secondary import secondary_figures
-from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_search import SearchState
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
@@ -41,15 +39,13 @@ _FIRST_ERROR_RATIO = 3.08  # rough error over the tolerance, assumed after the f
 ENOUGH_FOR_ZONES = 100
 
 
-def is_verified(found: MeshSolution | None, model: Model) -> TypeGuard[MeshSolution]:
+def is_verified(found: MeshSolution | None) -> TypeGuard[MeshSolution]:
     """Return whether there is a solution whose residual was evaluated and meets the tolerance."""
-    return found is not None and found.residual <= model.tolerance
+    return found is not None and found.residual <= found.contact.tolerance
 
 
 def with_free_ends(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
+    contact: RollingContact,
     layout: Layout,
     before: MeshSolution,
     misplacement: float,
@@ -71,28 +67,28 @@ def with_free_ends(
     error can be estimated because fewer than two mesh sizes were solved with the same zones, as
     when zones come and go or tractions are singular.
     """
-    placing = Placing(nip, model, kernels)
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
-        return _refined(placing, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
+        return _refined(contact, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 
 
 def _refined(
-    placing: Placing, state: SearchState, count: int, *, zones_known: bool
+    contact: RollingContact, state: SearchState, count: int, *, zones_known: bool
 ) -> MeshSolution | None:
     """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
-    nip, model = placing.nip, placing.model
+    tolerance = contact.tolerance
     history: list[RefinementLevel] = []
-    enough = ENOUGH_FOR_ZONES * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
+    enough = ENOUGH_FOR_ZONES * max(1e-3 / tolerance, 1.0) ** (1.0 / 3.0)
     most = _MOST_TIMES_FIRST * max(enough, count)
     best: MeshSolution | None = None
     roughness = inf
     while count <= most:
         settles_figures = bool(history)  # from the second size on the error may meet the tolerance
-        placed = placing.solve(
+        placed = place_ends(
+            contact,
             state,
             count,
             zones_known=zones_known or settles_figures,
@@ -104,26 +100,26 @@ def _refined(
             history.clear()  # changes between different zones are no measure of the error
         state, latest = placed, placed.solution
         count = elements_without_crowding(latest)
-        roughness = _roughness(nip, model, latest, roughness)
-        if roughness > 1.0 and not history and nip.friction == 0.0:
+        roughness = _roughness(latest, roughness)
+        if roughness > 1.0 and not history and contact.nip.friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
-            count, zones_known = _next_count(count, roughness, model.tolerance), True
+            count, zones_known = _next_count(count, roughness, tolerance), True
             continue
-        make_secondary = partial(secondary_figures, nip, model.geometry, latest)
+        make_secondary = partial(secondary_figures, latest)
         history.append(RefinementLevel(count, latest.figures, state.layout.breaks, make_secondary))
-        best = latest = with_errors(nip, latest, history, state.end_error)
-        ratio = error_ratio(nip, latest, model.tolerance)
+        best = latest = with_errors(latest, history, state.end_error)
+        ratio = latest.error_ratio
         if largest(ratio, roughness) <= 1.0:
-            final = with_residual(nip, model, placing.kernels, latest)
-            if final.residual <= model.tolerance:
-                return with_secondary_errors(nip, final, history)
-            ratio = final.residual / model.tolerance
+            final = with_residual(latest)
+            if is_verified(final):
+                return with_secondary_errors(final, history)
+            ratio = final.residual / tolerance
         excess = largest(ratio, roughness)
         if isnan(excess):
             break  # finer meshes do not help a solution that is no number
-        wanted = _next_count(count, excess if excess < inf else _FIRST_ERROR_RATIO, model.tolerance)
-        count = max(min(wanted, int(most)), _next_count(count, 1.0, model.tolerance))
-    return None if best is None or len(history) < 2 else with_secondary_errors(nip, best, history)
+        wanted = _next_count(count, excess if excess < inf else _FIRST_ERROR_RATIO, tolerance)
+        count = max(min(wanted, int(most)), _next_count(count, 1.0, tolerance))
+    return None if best is None or len(history) < 2 else with_secondary_errors(best, history)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
@@ -143,7 +139,7 @@ def elements_without_crowding(latest: MeshSolution) -> int:
     return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
-def _roughness(nip: Nip, model: Model, latest: MeshSolution, before: float) -> float:
+def _roughness(latest: MeshSolution, before: float) -> float:
     """Return the interpolation error of the tractions, over what is allowed.
 
     Where cubics do not resolve the tractions, mesh sizes may agree and all be wrong. Tractions
@@ -151,18 +147,18 @@ def _roughness(nip: Nip, model: Model, latest: MeshSolution, before: float) -> f
     the correction held has waves about as short as elements. A finer mesh may show more of them
     than the one ``before``: then the roughness tells nothing, and is given as 1, just allowed.
     """
-    x, fine = latest.mesh.inner, latest.mesh.fine
+    contact, x, fine = latest.contact, latest.mesh.inner, latest.mesh.fine
     covered = np.zeros(x.size, dtype=bool)
-    for slip in negligible_slip(nip, model, latest):
+    for slip in negligible_slip(latest):
         covered |= slip.covers(x)
     zones = fine.elements, fine.crowding, covered
     pressure, shear = latest.state.pressure, latest.state.shear
     width = float(x[-1] - x[0])
     peak = float(np.max(pressure))
-    little = model.tolerance * nip.friction * peak  # shear below this is negligible
+    little = contact.tolerance * contact.nip.friction * peak  # shear below this is negligible
     most = max(float(np.max(np.abs(shear))), little)
     errors = [cubic_error(pressure, x, *zones) / (peak * width)]
     if most > 0.0:
         errors.append(cubic_error(shear, x, *zones) / (most * width))
-    roughness = largest(*errors) / (NEGLIGIBLE * model.tolerance)
-    return 1.0 if model.geometry in FINITE and roughness > before else roughness
+    roughness = largest(*errors) / (NEGLIGIBLE * contact.tolerance)
+    return 1.0 if contact.has_finite_strain and roughness > before else roughness

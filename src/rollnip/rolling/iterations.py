@@ -14,29 +14,22 @@ from rollnip.contact import (
     contact_zones,
 )
 from rollnip.contact.problem import MOST_ITERATIONS
-from rollnip.model import Geometry, Model
-from rollnip.nip import Nip
 from rollnip.rolling.assemble import LaggedTerms, contact_problem, lagged_terms
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import shortest_zone
-from rollnip.rolling.mesh_solution import (
-    UNKNOWN_ERROR,
-    Figures,
-    MeshSolution,
-    peak_pressure,
-    scale_of_creepage,
-)
+from rollnip.rolling.mesh_solution import UNKNOWN_ERROR, Figures, MeshSolution, peak_pressure
 from rollnip.rolling.neglected_slip import tolerable_slip
-from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_lagged_terms
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.surfaces import Mesh, PairKernels
 
 
-def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> PairKernels:
-    """Return influence functions that hold the second order of the last solution, if any.
+def holding_second_order(contact: RollingContact, before: MeshSolution | None) -> PairKernels:
+    """Return the influence functions, holding the second order of the last solution, if any.
 
     Those that model no second order are returned as they are. The second order is small and smooth,
     so a few updates are enough, from mesh to mesh. The last mesh is checked with its own.
     """
+    kernels = contact.kernels
     if kernels.is_fixed:
         return kernels
     if before is None or not before.settled:
@@ -45,22 +38,21 @@ def holding_second_order(kernels: PairKernels, before: MeshSolution | None) -> P
 
 
 def own_second_order(
-    nip: Nip, geometry: Geometry, kernels: PairKernels, latest: MeshSolution
+    contact: RollingContact, latest: MeshSolution
 ) -> tuple[Mesh, LaggedTerms, float]:
     """Return the mesh of a solution that holds the second order of its own tractions.
 
     With it come the lagged terms that follow, and their change from those of the solution,
-    see `change_of`.
+    see `LaggedTerms.change_from`.
     """
-    own = replace(kernels, held=latest.mesh.second_fields(latest.state))
+    own = replace(contact.kernels, held=latest.mesh.second_fields(latest.state))
     mesh = latest.mesh.holding(own)
-    lagged = lagged_terms(nip, geometry, mesh, latest.state)
-    return mesh, lagged, change_of(lagged, latest.lagged, mesh, nip, latest.state)
+    lagged = lagged_terms(contact, mesh, latest.state)
+    return mesh, lagged, lagged.change_from(latest.lagged, contact, mesh, latest.state)
 
 
 def solve_on_mesh(
-    nip: Nip,
-    model: Model,
+    contact: RollingContact,
     mesh: Mesh,
     start: tuple[States, LaggedTerms, int],
     method: GivenStates | Safeguarded,
@@ -79,23 +71,22 @@ def solve_on_mesh(
     states, lagged, steps = start
     change = 0.0
     for _ in range(MOST_ITERATIONS):
-        problem = contact_problem(nip, mesh, lagged)
+        problem = contact_problem(contact, mesh, lagged)
         state = method.solve(problem, states)
         steps += state.steps
-        if not state.settled or has_no_lagged_terms(nip, model.geometry):
+        if not state.settled or contact.has_no_lagged_terms:
             break
-        updated = lagged_terms(nip, model.geometry, mesh, state)
-        change = change_of(updated, lagged, mesh, nip, state)
+        updated = lagged_terms(contact, mesh, state)
+        change = updated.change_from(lagged, contact, mesh, state)
         lagged, states = updated, state.states
-        if not change > settled_change * model.tolerance:
+        if not change > settled_change * contact.tolerance:
             break
     if zones is None:
-        zones = contact_zones(problem.x, state, nip.friction)
+        zones = contact_zones(problem.x, state, contact.nip.friction)
     figures = figures_of(mesh, state, zones, lagged.lean)
-    settled = (
-        state.settled and change <= settled_change * model.tolerance and figures.peak_pressure > 0.0
-    )
+    is_still = change <= settled_change * contact.tolerance
     return MeshSolution(
+        contact=contact,
         mesh=mesh,
         problem=problem,
         state=state,
@@ -104,21 +95,9 @@ def solve_on_mesh(
         figures=figures,
         error=UNKNOWN_ERROR,
         steps=steps,
-        settled=settled,
+        settled=state.settled and is_still and figures.peak_pressure > 0.0,
         geometry_change=change,
     )
-
-
-def change_of(
-    new: LaggedTerms, old: LaggedTerms, mesh: Mesh, nip: Nip, state: ContactState
-) -> float:
-    """Return the largest change of the lagged terms, relative to the first-order terms."""
-    half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
-    strain = nip.curvature * half_nip
-    approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
-    load = float(mesh.weights @ state.pressure)
-    creepage = scale_of_creepage(state.creepage, strain)
-    return new.change(old, state.creepage, mesh.dx, (approach, creepage, strain * load))
 
 
 def figures_of(
@@ -135,9 +114,7 @@ def figures_of(
     )
 
 
-def with_residual(
-    nip: Nip, model: Model, kernels: PairKernels, latest: MeshSolution
-) -> MeshSolution:
+def with_residual(latest: MeshSolution) -> MeshSolution:
     """Return a solution with its residual: of the contact conditions, on more points.
 
     The traction bound and drift are not checked where slip is left out that changes the creepage
@@ -146,11 +123,9 @@ def with_residual(
     Where the second order follows the tractions, the mesh of the result holds that of its own
     tractions. The change of the lagged terms that this makes counts for `geometry_change`.
     """
-    if not kernels.is_fixed:
-        mesh, _, change = own_second_order(nip, model.geometry, kernels, latest)
-        kernels, change = mesh.kernels, largest(change, latest.geometry_change)
+    if not latest.contact.kernels.is_fixed:
+        mesh, _, change = own_second_order(latest.contact, latest)
+        change = largest(change, latest.geometry_change)
         latest = replace(latest, mesh=mesh, geometry_change=change)
-    fields = fields_between(nip, model.geometry, kernels, latest)
-    shortest = shortest_zone(nip, model, latest.figures.nip_width)
-    left_out = tolerable_slip(nip, model, latest)
-    return replace(latest, residual=residual(nip, fields, latest, shortest, left_out))
+    left = residual(latest, fields_between(latest), tolerable_slip(latest))
+    return replace(latest, residual=left)

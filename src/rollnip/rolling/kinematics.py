@@ -9,7 +9,8 @@ from rollnip.geometry import linear_stretch, rotation_stretch, sagitta, second_s
 from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Nip
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.surfaces import PairKernels, hoop_curvature
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.surfaces import hoop_curvature
 
 
 def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
@@ -52,24 +53,20 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
 
 
 def stretch_parts(
-    x: Array,
-    nip: Nip,
-    geometry: Geometry,
-    kernels: PairKernels,
-    u_linear: Displacements,
-    u: Displacements,
+    x: Array, contact: RollingContact, u_linear: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
     """Return `stretch_excess` split into its linear part and the rest.
 
-    If ``kernels`` hold a stretch, the rest is the one held. ``u_linear``: the linear part of ``u``.
+    If the contact holds a stretch, the rest is that one. ``u_linear``: the linear part of ``u``.
     """
+    kernels = contact.kernels
     dx, hoops = x[1:] - x[:-1], np.array(kernels.hoops)[:, None]
     linear, beyond = linear_stretch(dx, hoops, *u_linear.rows), kernels.held_stretch(x)
     if beyond is not None:
         return linear, beyond
-    if geometry == "curved":
+    if contact.geometry == "curved":
         return linear, rotation_stretch(dx, hoops, *u.rows)
-    return linear, stretch_excess(x, nip, geometry, u) - linear
+    return linear, stretch_excess(x, contact.nip, contact.geometry, u) - linear
 
 
 def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:

@@ -6,20 +6,8 @@ from math import inf
 
 from rollnip.compliance import half_space_limit
 from rollnip.influence import has_stiff_skin
-from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-
-
-def shortest_zone(nip: Nip, model: Model, width: float) -> float:
-    """Return the length of the shortest zone that a contact is searched for [mm].
-
-    It is the tolerance times the width, or times the boundary layer if that is shorter. Unlike
-    surfaces that stick up to an edge slip there over some length, however short, and next to it in
-    the other direction over a shorter one. Edges move by a tenth of the length of a slip zone that
-    is left out (decision 87).
-    """
-    return model.tolerance * min(width, boundary_layer(nip))
 
 
 def thinnest_covering(nip: Nip, least_poisson: float = -1.0) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, isfinite
 from typing import Literal
@@ -20,18 +20,14 @@ from rollnip.contact import (
 )
 from rollnip.contact.problem import Array
 from rollnip.influence import load_weights
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import LaggedTerms
-from rollnip.rolling.changes import NEGLIGIBLE
+from rollnip.rolling.changes import NEGLIGIBLE, scale_of_creepage
 from rollnip.rolling.displacements import Displacements
+from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.surfaces import Mesh
 
-LEAST_SIZE = 0.05
-"""Least size that an error is relative to, over the largest that its figure may have.
-
-A figure that is zero by symmetry has no relative error.
-"""
 _EQUAL_PEAKS = NEGLIGIBLE * Model().tolerance  # relative difference of peaks as high as others
 
 
@@ -120,6 +116,8 @@ class MeshSolution:
 
     Attributes
     ----------
+    contact : the rolling contact solved. Where its influence functions compute the second order
+        from the tractions, those of the mesh hold that of an earlier solution.
     mesh, problem, state, lagged : the mesh, the discrete problem, its solution, and the
         lagged terms that follow from the solution.
     zones : contact zones from trailing to leading edge.
@@ -137,6 +135,7 @@ class MeshSolution:
     failure : why the finite-strain iteration failed; None where it did not, or there was none.
     """
 
+    contact: RollingContact
     mesh: Mesh
     problem: ContactProblem
     state: ContactState
@@ -151,6 +150,16 @@ class MeshSolution:
     make_secondary_error: Callable[[], SecondaryFigures] | None = None
     cut: float = 0.0
     failure: IterationFailure | None = None
+
+    @property
+    def nip(self) -> Nip:
+        """The nip solved."""
+        return self.contact.nip
+
+    @property
+    def geometry(self) -> Geometry:
+        """The geometry model that it was solved in."""
+        return self.contact.geometry
 
     @cached_property
     def displacements(self) -> Displacements:
@@ -221,6 +230,51 @@ class MeshSolution:
         """Load of a unit traction at each of ``x``, (M-1,) [mm]."""
         return load_weights(self.nodes)
 
+    @property
+    def has_tension(self) -> bool:
+        """Whether there is tension in the contact, outside the elements at edges."""
+        return bool(np.any(self.pressure[~self.mesh.is_beside_edge] < 0.0))
+
+    @property
+    def has_grip(self) -> bool:
+        """Whether friction can carry the prescribed traction: |T| < mu F."""
+        wanted, load = self.problem.control.traction, self.figures.load
+        if not self.geometry_change < 1.0:  # diverged lagged terms say nothing of friction
+            return True
+        return wanted is None or abs(wanted) < max(self.problem.friction * load, 1e-9 * load)
+
+    @property
+    def creepage_scale(self) -> float:
+        """Size that errors of the creepage are relative to."""
+        figures = self.figures
+        return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * self.nip.curvature)
+
+    @property
+    def error_ratio(self) -> float:
+        """The largest estimated relative error over the tolerance; inf if nothing is pressed.
+
+        Prescribed figures do not count.
+        """
+        figures, error, nip = self.figures, self.error, self.nip
+        if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
+            return inf
+        watched = [
+            error.nip_width / figures.nip_width,
+            error.peak_pressure / figures.peak_pressure,
+        ]
+        if isinstance(nip.normal, LineLoad):
+            if not nip.has_half_space:
+                watched.append(error.approach / abs(figures.approach))
+        else:
+            watched.append(error.load / figures.load)
+        if isfinite(figures.creepage):
+            watched.append(error.creepage / self.creepage_scale)
+        return largest(*watched) / self.contact.tolerance
+
+    def with_correction_of(self, contact: RollingContact) -> MeshSolution:
+        """Return the solution as one of ``contact``, with the correction that this one holds."""
+        return replace(self, contact=contact, mesh=self.mesh.holding(contact.kernels))
+
 
 def peaks_alike(pressure: Array) -> list[int]:
     """Return the indices of the highest pressure: several where peaks are equally high.
@@ -261,44 +315,3 @@ def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
     place = 0.5 * (x[i - 1] + x[i]) - 0.5 * rise / bend
     value = pressure[i - 1] + (rise + bend * (place - x[i])) * (place - x[i - 1])
     return float(value), float(place)
-
-
-def error_ratio(nip: Nip, latest: MeshSolution, tolerance: float) -> float:
-    """Return the largest estimated relative error, over the tolerance; inf if nothing is pressed.
-
-    Prescribed figures do not count.
-    """
-    figures, error = latest.figures, latest.error
-    if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
-        return inf
-    watched = [
-        error.nip_width / figures.nip_width,
-        error.peak_pressure / figures.peak_pressure,
-    ]
-    if isinstance(nip.normal, LineLoad):
-        if not nip.has_half_space:
-            watched.append(error.approach / abs(figures.approach))
-    else:
-        watched.append(error.load / figures.load)
-    if isfinite(figures.creepage):
-        watched.append(error.creepage / creepage_scale(nip, figures))
-    return largest(*watched) / tolerance
-
-
-def creepage_scale(nip: Nip, figures: Figures) -> float:
-    """Return the size that errors of the creepage are relative to."""
-    return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * nip.curvature)
-
-
-def scale_of_creepage(creepage: float, slope: float) -> float:
-    """Return |creepage|, or `LEAST_SIZE` of the slope of the gap at the edge if that is more."""
-    return max(LEAST_SIZE * slope, abs(creepage))  # in this order: max(a, nan) is a
-
-
-def has_grip(latest: MeshSolution) -> bool:
-    """Return whether friction can carry the prescribed traction: |T| < mu F."""
-    wanted = latest.problem.control.traction
-    limit = latest.problem.friction * latest.figures.load
-    if not latest.geometry_change < 1.0:  # diverged lagged terms say nothing of friction
-        return True
-    return wanted is None or abs(wanted) < max(limit, 1e-9 * latest.figures.load)

@@ -16,16 +16,15 @@ import numpy as np
 
 from rollnip.contact import Layout, State, States, TurningSlip, next_states
 from rollnip.contact.coupled import solve_states
-from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rolling.lengths import thinnest_covering
-from rollnip.rolling.mesh_solution import Figures, MeshSolution, creepage_scale
+from rollnip.rolling.mesh_solution import MeshSolution
 
 # See `creepage_by_slip`; on four nips 0.17 to 0.31. See `creepage_by_ends`; on five nips up to 0.4.
 _CREEPAGE_BY_SLIP = 0.35
 
 
-def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:
+def creepage_by_slip(latest: MeshSolution, slip: TurningSlip) -> float:
     """Return by how much a slip zone that is left out at an edge changes the creepage, at most.
 
     The change is in proportion to its length, to the slope of the gap at the edge over the width,
@@ -37,9 +36,9 @@ def creepage_by_slip(nip: Nip, figures: Figures, slip: TurningSlip) -> float:
     there slip matters less, by s over the width, which is a third of the length of the zone in the
     mean over a creep that falls from the edge on, or less.
     """
-    width = figures.nip_width
-    slope = 0.5 * nip.curvature  # over the width
-    share = slip.amplitude * sqrt(width) / (2.0 * figures.peak_pressure)
+    width = latest.figures.nip_width
+    slope = 0.5 * latest.nip.curvature  # over the width
+    share = slip.amplitude * sqrt(width) / (2.0 * latest.figures.peak_pressure)
     by_edge = 1.0 if slip.leads else slip.length / (3.0 * width)
     return _CREEPAGE_BY_SLIP * slope * share * slip.length * by_edge
 
@@ -64,30 +63,28 @@ def creepage_by_ends(nip: Nip, layout: Layout, proposed: Layout) -> float:
     return _CREEPAGE_BY_SLIP * 0.5 * layout.width * nip.curvature * share
 
 
-def negligible_change(nip: Nip, model: Model, figures: Figures) -> float:
+def negligible_change(latest: MeshSolution) -> float:
     """Return the change of the creepage up to which slip need not be looked for.
 
     It is a quarter of what the tolerance allows; the rest is left to the estimated errors.
     """
-    return 0.25 * model.tolerance * creepage_scale(nip, figures)
+    return 0.25 * latest.contact.tolerance * latest.creepage_scale
 
 
-def is_negligible(nip: Nip, model: Model, figures: Figures, slip: TurningSlip) -> bool:
+def is_negligible(latest: MeshSolution, slip: TurningSlip) -> bool:
     """Return whether slip that is left out need not be looked for: figures hardly depend on it."""
-    return creepage_by_slip(nip, figures, slip) <= negligible_change(nip, model, figures)
+    return creepage_by_slip(latest, slip) <= negligible_change(latest)
 
 
-def negligible_slip(nip: Nip, model: Model, latest: MeshSolution) -> list[TurningSlip]:
+def negligible_slip(latest: MeshSolution) -> list[TurningSlip]:
     """Return the slip left out by a solution that need not be looked for."""
-    left_out = latest.slip_left_out
-    return [slip for slip in left_out if is_negligible(nip, model, latest.figures, slip)]
+    return [slip for slip in latest.slip_left_out if is_negligible(latest, slip)]
 
 
-def tolerable_slip(nip: Nip, model: Model, latest: MeshSolution) -> list[TurningSlip]:
+def tolerable_slip(latest: MeshSolution) -> list[TurningSlip]:
     """Return the slip left out by a solution that changes its creepage within the tolerance."""
-    figures, left_out = latest.figures, latest.slip_left_out
-    most = model.tolerance * creepage_scale(nip, figures)
-    return [slip for slip in left_out if creepage_by_slip(nip, figures, slip) <= most]
+    most = latest.contact.tolerance * latest.creepage_scale
+    return [slip for slip in latest.slip_left_out if creepage_by_slip(latest, slip) <= most]
 
 
 def overlooked_states(latest: MeshSolution) -> tuple[States, float]:

@@ -3,27 +3,25 @@
 The tractions at the first nodes beside each end propose where it should be
 (`contact.Layout.with_proposed_ends`), and Broyden's method moves it there (`contact.secants`). Once
 the ends are nearly right, a solution shows whether its zones are the right ones
-(`zone_search.ZoneSearch`).
+(`zone_search`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from math import inf, log10
 
 import numpy as np
 
 from rollnip.contact import NEAR_ENOUGH, Layout
-from rollnip.model import FINITE, Model
-from rollnip.nip import Nip
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.end_search import EndSearch
-from rollnip.rolling.lengths import thinnest_covering
-from rollnip.rolling.mesh_solution import MeshSolution, error_ratio
-from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_search import SearchState, ZoneSearch
-from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
+from rollnip.rolling.lengths import boundary_layer, thinnest_covering
+from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_search import changed_states, other_zones
+from rollnip.rolling.zone_solver import are_too_many, crowding_for, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -31,173 +29,155 @@ from rollnip.rolling.zone_solver import ZoneSolver, are_too_many, crowds_more
 MOST_MESHES = 8
 
 
-@dataclass(frozen=True)
-class Placing:
-    """Solver for the zones of a nip and their ends, on meshes of a given size."""
+def place_ends(
+    contact: RollingContact,
+    start: SearchState,
+    count: int,
+    *,
+    zones_known: bool,
+    settles_figures: bool = False,
+    follows_correction: bool = False,
+) -> SearchState | None:
+    """Return the solution with placed ends on a mesh of given size, and its zones.
 
-    nip: Nip
-    model: Model
-    kernels: PairKernels
+    Each step solves on one mesh and moves its ends, or changes the zones if the solution shows that
+    there are others.
 
-    def solve(
-        self,
-        start: SearchState,
-        count: int,
-        *,
-        zones_known: bool,
-        settles_figures: bool = False,
-        follows_correction: bool = False,
-    ) -> SearchState | None:
-        """Return the solution with placed ends on a mesh of given size, and its zones.
+    Parameters
+    ----------
+    start : state of the search, with the zones to start from.
+    count : rough number of elements.
+    zones_known : whether the zones are known to be right.
+    settles_figures : whether to place the ends so exactly that the figures no longer change with
+        them. Two meshes show how figures depend on ends, or one if the previous size has shown it.
+    follows_correction : whether a correction held has moved the ends and will move them again, on
+        meshes like the last one. They need not be placed then, see `_have_followed`.
 
-        Each step solves on one mesh and moves its ends, or changes the zones if the solution shows
-        that there are others.
-
-        Parameters
-        ----------
-        start : state of the search, with the zones to start from.
-        count : rough number of elements.
-        zones_known : whether the zones are known to be right.
-        settles_figures : whether to place the ends so exactly that the figures no longer change
-            with them. Two meshes show how figures depend on ends, or one if the previous size has
-            shown it.
-        follows_correction : whether a correction held has moved the ends and will move them again,
-            on meshes like the last one. They need not be placed then, see `_have_followed`.
-
-        Returns
-        -------
-        None where no such solution is found.
-        """
-        # The second order held so far is from a coarser mesh: each size evaluates its own.
-        search = EndSearch.of(self.solver, replace(start, to_come=inf), count)
-        if follows_correction:
-            fine = start.solution.mesh.fine
-            search.shape = np.array(fine.elements), fine.crowding
-        most_meshes = self._most_meshes(start.layout)
-        while search.meshes < most_meshes and _can_be_placed(search.state.layout):
-            search.solve_mesh()
-            if follows_correction and self._have_followed(search):
-                return search.result()
-            # The figures show errors of ends only with the zones of the previous size.
-            same_zones = settles_figures and search.layout.is_like(start.layout)
-            is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
-            others = self.zone_search.other_zones(
-                search.latest,
-                search.layout,
-                search.proposed,
-                search.vanishing,
-                is_placed=is_placed,
-                is_near=not zones_known and search.is_near,
-            )
-            other = search.untried(others)
-            if other is not None:
-                search.change_zones(other)
-            elif not is_placed:
-                search.move_ends()
-            elif self.zone_search.has_tension(search.latest):
-                break
-            else:
-                return search.result()
-        return None
-
-    @cached_property
-    def solver(self) -> ZoneSolver:
-        """The solver with given zones."""
-        return ZoneSolver(self.nip, self.model, self.kernels)
-
-    @cached_property
-    def zone_search(self) -> ZoneSearch:
-        """The search for other zones that a solution calls for."""
-        return ZoneSearch(self.nip, self.model)
-
-    def _have_followed(self, search: EndSearch) -> bool:
-        """Return whether the ends on a mesh have followed a correction that may still change.
-
-        All of them lie within the tolerance of where the solution puts them: a transition that is
-        misplaced by more has shears beyond the bound beside it, and the correction of such shears
-        would move it again. The solution must call for no other zones.
-        """
-        layout, proposed = search.layout, search.proposed
-        distance = proposed.distance(layout, transitions_count=1.0)
-        if not (proposed.is_proper and distance <= self.model.tolerance):
-            return False
-        is_placed = self._are_ends_placed(layout, search.misplacement, zones_known=True)
-        wanted = self.zone_search.changed_states(search.latest, layout, checks_contact=is_placed)
-        return wanted is None
-
-    def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
-        """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
-
-        ``same_zones``: whether figures can be compared with those of the previous size.
-        """
-        layout, latest = search.layout, search.latest
-        # Without friction figures hardly depend on the ends; at finite strain corrections need ends
-        # to be exact, whatever the figures do.
-        has_finite_strain = self.model.geometry in FINITE
-        by_figures = same_zones and self.nip.friction > 0.0 and not has_finite_strain
-        return (
-            self._are_ends_placed(
-                layout, search.misplacement, zones_known=zones_known, by_figures=by_figures
-            )
-            and (search.proposed.is_proper and latest.settled and search.second_order_settled)
-            and not (by_figures and self._changes(search))
-            and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
-            and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
+    Returns
+    -------
+    None where no such solution is found.
+    """
+    # The second order held so far is from a coarser mesh: each size evaluates its own.
+    search = EndSearch.of(contact, replace(start, to_come=inf), count)
+    if follows_correction:
+        fine = start.solution.mesh.fine
+        search.shape = np.array(fine.elements), fine.crowding
+    most_meshes = _most_meshes(contact, start.layout)
+    while search.meshes < most_meshes and _can_be_placed(search.layout):
+        search.solve_mesh()
+        if follows_correction and _have_followed(search):
+            return search.result()
+        # The figures show errors of ends only with the zones of the previous size.
+        same_zones = settles_figures and search.layout.is_like(start.layout)
+        is_placed = _is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
+        others = other_zones(
+            search.latest,
+            search.layout,
+            search.proposed,
+            search.vanishing,
+            is_placed=is_placed,
+            is_near=not zones_known and search.is_near,
         )
+        other = search.untried(others)
+        if other is not None:
+            search.change_zones(other)
+        elif not is_placed:
+            search.move_ends()
+        elif search.latest.has_tension:
+            break
+        else:
+            return search.result()
+    return None
 
-    def _are_ends_placed(
-        self, layout: Layout, misplacement: float, *, zones_known: bool, by_figures: bool = False
-    ) -> bool:
-        """Return whether the errors of the ends are small relative to the width of the contact.
 
-        If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
-        otherwise a tenth of it. Without friction, the edges of zones that are known are placed
-        relative to the boundary layer instead, if it is shorter, as the pressure changes within it.
-        """
-        most = self.model.tolerance * (1.0 if by_figures else NEGLIGIBLE)
-        length = layout.width
-        if zones_known and self.nip.friction == 0.0:
-            length = min(length, self.solver.boundary)
-        shortest = float(layout.lengths.min())
-        return misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
+def _have_followed(search: EndSearch) -> bool:
+    """Return whether the ends on a mesh have followed a correction that may still change.
 
-    def _changes(self, search: EndSearch) -> bool:
-        """Return whether the figures still change with the ends, by more than iterations may leave.
+    All of them lie within the tolerance of where the solution puts them: a transition that is
+    misplaced by more has shears beyond the bound beside it, and the correction of such shears would
+    move it again. The solution must call for no other zones.
+    """
+    layout, proposed = search.layout, search.proposed
+    distance = proposed.distance(layout, transitions_count=1.0)
+    if not (proposed.is_proper and distance <= search.contact.tolerance):
+        return False
+    is_placed = _are_ends_placed(search, zones_known=True)
+    return changed_states(search.latest, layout, checks_contact=is_placed) is None
 
-        All figures but the width are linear functionals of the tractions, so they depend on the
-        ends to second order. Where it is not known how much, ends count that are placed a tenth as
-        exactly as where figures do not decide, over the width or the thickness of a thin covering.
-        """
-        end_error = search.end_error
-        if end_error is None:
-            length = min(search.layout.width, thinnest_covering(self.nip))
-            most = NEGLIGIBLE**2 * self.model.tolerance * length
-            return search.misplacement * search.layout.width > most
-        changed = replace(search.latest, error=end_error)
-        return error_ratio(self.nip, changed, self.model.tolerance) > NEGLIGIBLE
 
-    def _exceeds_bound(self, latest: MeshSolution) -> bool:
-        """Return whether the shear beside a transition exceeds its bound by more than allowed.
+def _is_placed_by(search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
+    """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
-        A stick zone that is too long by delta has a shear beyond the bound in its last element;
-        under a stiff skin, where the slightest stretch causes shear, far beyond it.
-        """
-        least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
-        exceeds = latest.over_bound > least
-        cells = set(latest.mesh.inner.searchsorted(latest.x[exceeds]).tolist())
-        return any(not cells.isdisjoint((end, end + 1)) for end in latest.mesh.fine.inner_breaks)
+    ``same_zones``: whether figures can be compared with those of the previous size.
+    """
+    contact, layout, latest = search.contact, search.layout, search.latest
+    # Without friction figures hardly depend on the ends; at finite strain corrections need ends to
+    # be exact, whatever the figures do.
+    by_figures = same_zones and contact.nip.friction > 0.0 and not contact.has_finite_strain
+    return (
+        _are_ends_placed(search, zones_known=zones_known, by_figures=by_figures)
+        and (search.proposed.is_proper and latest.settled and search.second_order_settled)
+        and not (by_figures and _figures_change(search))
+        and not (_is_false_at_edge(latest) or (same_zones and _exceeds_bound(latest)))
+        and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)
+    )
 
-    def _most_meshes(self, layout: Layout) -> int:
-        crowding = self.solver.crowding(layout)
-        most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
-        strongest = min(map(min, crowding))
-        most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh
-        # An edge that is misplaced by more than a boundary layer is found by bisection, as a
-        # solution shows only in which direction it should move. Likewise the length of stick where
-        # slip changes its sign is halved.
-        if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
-            most += MOST_MESHES // 2
-        return most
+
+def _are_ends_placed(search: EndSearch, *, zones_known: bool, by_figures: bool = False) -> bool:
+    """Return whether the errors of the ends are small relative to the width of the contact.
+
+    If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
+    otherwise a tenth of it. Without friction, the edges of zones that are known are placed relative
+    to the boundary layer instead, if it is shorter, as the pressure changes within it.
+    """
+    contact, layout = search.contact, search.layout
+    most = contact.tolerance * (1.0 if by_figures else NEGLIGIBLE)
+    length = layout.width
+    if zones_known and contact.nip.friction == 0.0:
+        length = min(length, boundary_layer(contact.nip))
+    shortest = float(layout.lengths.min())
+    return search.misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
+
+
+def _figures_change(search: EndSearch) -> bool:
+    """Return whether the figures still change with the ends, by more than iterations may leave.
+
+    All figures but the width are linear functionals of the tractions, so they depend on the ends to
+    second order. Where it is not known how much, ends count that are placed a tenth as exactly as
+    where figures do not decide, over the width or the thickness of a thin covering.
+    """
+    end_error = search.end_error
+    if end_error is None:
+        length = min(search.layout.width, thinnest_covering(search.contact.nip))
+        most = NEGLIGIBLE**2 * search.contact.tolerance * length
+        return search.misplacement * search.layout.width > most
+    return replace(search.latest, error=end_error).error_ratio > NEGLIGIBLE
+
+
+def _exceeds_bound(latest: MeshSolution) -> bool:
+    """Return whether the shear beside a transition exceeds its bound by more than allowed.
+
+    A stick zone that is too long by delta has a shear beyond the bound in its last element; under a
+    stiff skin, where the slightest stretch causes shear, far beyond it.
+    """
+    least = latest.contact.tolerance * latest.nip.friction * latest.figures.peak_pressure
+    exceeds = latest.over_bound > least
+    cells = set(latest.mesh.inner.searchsorted(latest.x[exceeds]).tolist())
+    return any(not cells.isdisjoint((end, end + 1)) for end in latest.mesh.fine.inner_breaks)
+
+
+def _most_meshes(contact: RollingContact, layout: Layout) -> int:
+    """Return the most meshes of one size with the same zones."""
+    crowding = crowding_for(contact, layout)
+    most = MOST_MESHES + max(0, round(-3.0 - log10(contact.tolerance)))
+    strongest = min(map(min, crowding))
+    most += round(-log10(strongest))  # crowding can increase tenfold from mesh to mesh
+    # An edge that is misplaced by more than a boundary layer is found by bisection, as a solution
+    # shows only in which direction it should move. Likewise the length of stick where slip changes
+    # its sign is halved.
+    if (len(crowding) == 1 and strongest < 1.0) or layout.reversals:
+        most += MOST_MESHES // 2
+    return most
 
 
 def _is_false_at_edge(latest: MeshSolution) -> bool:

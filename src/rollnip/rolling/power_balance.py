@@ -28,7 +28,6 @@ import numpy as np
 
 from rollnip.contact.problem import Array, Mask
 from rollnip.model import FINITE, Geometry
-from rollnip.nip import Nip
 from rollnip.rollers import SIDES
 from rollnip.rolling.kinematics import creep_of
 from rollnip.rolling.mesh_solution import MeshSolution
@@ -79,13 +78,13 @@ def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
     return (1.0, 1.0) if geometry in ("linear", "corrected") else (1.0 + half, 1.0 - half)
 
 
-def powers(nip: Nip, geometry: Geometry, found: MeshSolution) -> Powers:
+def powers(found: MeshSolution) -> Powers:
     """Return the losses and the transmitted work of a solution."""
-    mesh, state = found.mesh, found.state
+    nip, geometry, mesh, state = found.nip, found.geometry, found.mesh, found.state
     x, u = mesh.fine.nodes[1:], found.displacements
     inside = [slip_intervals(x, (zone,)) for zone in found.zones]  # none where surfaces stick
     slips = np.any(inside, axis=0)
-    pulls, shear, both = transmitted(nip, geometry, mesh, state, u, slips)
+    pulls, shear, both = transmitted(found.contact, mesh, state, u, slips)
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
         dx = x[1:] - x[:-1]

@@ -9,20 +9,15 @@ from typing import Protocol
 import numpy as np
 
 from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
-from rollnip.model import Model
-from rollnip.nip import Nip
 from rollnip.rolling.assemble import initial_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
-from rollnip.rolling.iterations import (
-    holding_second_order,
-    solve_on_mesh,
-    with_residual,
-)
-from rollnip.rolling.mesh_solution import MeshSolution, has_grip
+from rollnip.rolling.iterations import holding_second_order, solve_on_mesh, with_residual
+from rollnip.rolling.lengths import boundary_layer
+from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.placing import MOST_MESHES
-from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.zone_solver import ZoneSolver, are_too_many
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.zone_solver import are_too_many, mesh_around
 
 BY_NODES = Safeguarded()
 """Solver that seeks the states of a contact problem node by node."""
@@ -43,9 +38,7 @@ class IsTooDeep(Protocol):
 
 
 def refine(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
+    contact: RollingContact,
     half_width: float,
     sizes: tuple[int, ...] = SIZES,
     is_too_deep: IsTooDeep | None = None,
@@ -69,44 +62,36 @@ def refine(
     found node by node, preferably one that has settled.
     """
     best: MeshSolution | None = None
-    for latest in by_nodes(nip, model, kernels, half_width, sizes):
+    for latest in by_nodes(contact, half_width, sizes):
         if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
             return latest
-        found = free_ends_from_nodes(nip, model, kernels, latest) if latest.settled else None
-        if is_verified(found, model):
+        found = free_ends_from_nodes(contact, latest) if latest.settled else None
+        if is_verified(found):
             return found
         best = found or best
     best = best or latest
     if not best.figures.peak_pressure > 0.0:
         return best
-    return with_residual(nip, model, kernels, best)
+    return with_residual(best)
 
 
 def free_ends_from_nodes(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
-    located: MeshSolution,
-    most: int | None = None,
+    contact: RollingContact, located: MeshSolution, most: int | None = None
 ) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node.
 
     Its first mesh has as many elements as that one, or ``most`` if these are fewer. Nodes that
     crowd at the ends of short zones add to them.
     """
-    layout, count = Layout.of(located.zones, nip.friction), located.mesh.inner.size
+    layout, count = Layout.of(located.zones, contact.nip.friction), located.mesh.inner.size
     if layout is None:
         return None
     fewest = count if most is None else min(count, most)
-    return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, fewest)
+    return with_free_ends(contact, layout, located, 1.0 / count, fewest)
 
 
 def by_nodes(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
-    half_width: float,
-    sizes: tuple[int, ...],
+    contact: RollingContact, half_width: float, sizes: tuple[int, ...]
 ) -> Iterator[MeshSolution]:
     """Yield the solution found node by node on each of the mesh sizes.
 
@@ -114,32 +99,29 @@ def by_nodes(
     long as none has. The sequence ends early where nothing is pressed, or friction cannot
     carry the prescribed traction.
     """
-    solver = ZoneSolver(nip, model, kernels)
     before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
-        found, settled = _solve_at_size(solver, half_width, count, before)
+        found, settled = _solve_at_size(contact, half_width, count, before)
         any_settled = any_settled or settled is not None
         if settled is not None or not any_settled:
             yield settled or found
-        if not (found.figures.peak_pressure > 0.0 and has_grip(found)):
+        if not (found.figures.peak_pressure > 0.0 and found.has_grip):
             return
         before = found if found.settled else before
 
 
-def finer_by_nodes(
-    nip: Nip, model: Model, kernels: PairKernels, before: MeshSolution
-) -> MeshSolution | None:
+def finer_by_nodes(contact: RollingContact, before: MeshSolution) -> MeshSolution | None:
     """Return the solution node by node on the next finer mesh; None if there is no finer one."""
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
-    found, settled = _solve_at_size(ZoneSolver(nip, model, kernels), 0.0, finer[0], before)
+    found, settled = _solve_at_size(contact, 0.0, finer[0], before)
     return settled or found
 
 
 def _solve_at_size(
-    solver: ZoneSolver, half_width: float, count: int, before: MeshSolution | None
+    contact: RollingContact, half_width: float, count: int, before: MeshSolution | None
 ) -> tuple[MeshSolution, MeshSolution | None]:
     """Return the last solution node by node at one mesh size, and the last that has settled.
 
@@ -147,16 +129,16 @@ def _solve_at_size(
     """
     last: MeshSolution | None = None
     for _ in range(MOST_MESHES):
-        found = _solve_by_nodes(solver, half_width, count, last or before)
+        found = _solve_by_nodes(contact, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
-        if not is_pressed or _zones_are_known(solver, found, last):
+        if not is_pressed or _zones_are_known(found, last):
             break
         last = found
     return found, found if found.settled else last
 
 
 def _solve_by_nodes(
-    solver: ZoneSolver, half_width: float, count: int, before: MeshSolution | None
+    contact: RollingContact, half_width: float, count: int, before: MeshSolution | None
 ) -> MeshSolution:
     """Return the solution node by node on a mesh around the zones of ``before``, or a guess."""
     if before is None:
@@ -168,15 +150,15 @@ def _solve_by_nodes(
         if are_too_many(len(zones)):  # then the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.with_free_surfaces(zones, NEAR_ENOUGH * before.figures.nip_width)
-    mesh = solver.mesh_around(around, count, holding_second_order(solver.kernels, before))
-    lagged, steps = initial_terms(solver.nip, mesh), 0
+    mesh = mesh_around(contact, around, count, holding_second_order(contact, before))
+    lagged, steps = initial_terms(contact, mesh), 0
     if before is not None:
         lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), lagged, steps
-    return solve_on_mesh(solver.nip, solver.model, mesh, start, BY_NODES, NEGLIGIBLE)
+    return solve_on_mesh(contact, mesh, start, BY_NODES, NEGLIGIBLE)
 
 
-def _zones_are_known(solver: ZoneSolver, latest: MeshSolution, before: MeshSolution | None) -> bool:
+def _zones_are_known(latest: MeshSolution, before: MeshSolution | None) -> bool:
     """Return whether the zones are known well enough to place their ends.
 
     The first mesh of a size is dense at the edges only. It takes a second one to be dense at
@@ -184,8 +166,9 @@ def _zones_are_known(solver: ZoneSolver, latest: MeshSolution, before: MeshSolut
     second order of the one before, no end may have moved by more than an element.
     """
     element = latest.figures.nip_width / latest.mesh.inner.size
-    if solver.kernels.is_fixed:
-        return before is not None or (len(latest.zones) == 1 and solver.boundary >= element)
+    if latest.contact.kernels.is_fixed:
+        is_resolved = len(latest.zones) == 1 and boundary_layer(latest.nip) >= element
+        return before is not None or is_resolved
     if before is None or len(before.zones) != len(latest.zones):
         return False
     ends = np.array([(zone.start, zone.stop) for zone in latest.zones])

@@ -6,20 +6,14 @@ import numpy as np
 
 from rollnip.contact import contact_intervals
 from rollnip.contact.problem import Array
-from rollnip.model import Geometry
-from rollnip.nip import Nip
-from rollnip.rolling.mesh_solution import (
-    LEAST_SIZE,
-    MeshSolution,
-    SecondaryFigures,
-    peak_pressure,
-)
+from rollnip.rolling.changes import LEAST_SIZE
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
 from rollnip.rolling.power_balance import Powers, powers
 
 
-def secondary_figures(nip: Nip, geometry: Geometry, found: MeshSolution) -> SecondaryFigures:
+def secondary_figures(found: MeshSolution) -> SecondaryFigures:
     """Return the secondary figures of a solution."""
-    return secondary_figures_of(powers(nip, geometry, found), found)
+    return secondary_figures_of(powers(found), found)
 
 
 def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures:
@@ -38,13 +32,13 @@ def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures
     )
 
 
-def secondary_sizes(nip: Nip, latest: MeshSolution, figures: SecondaryFigures) -> Array:
+def secondary_sizes(latest: MeshSolution, figures: SecondaryFigures) -> Array:
     """Return the sizes that errors of `SecondaryFigures` are relative to, (8,).
 
     Each is at least `LEAST_SIZE` of the largest value that the figure may have. A figure that
     vanishes for lack of friction or viscosity has size 0, so no error.
     """
-    load, width = latest.figures.load, latest.figures.nip_width
+    nip, load, width = latest.nip, latest.figures.load, latest.figures.nip_width
     work = load * 0.5 * width * nip.curvature  # of the load on the slope of the gap at an edge
     grip = min(nip.friction, 1.0)
     traction = max(abs(figures.traction), LEAST_SIZE * grip * load)

@@ -12,6 +12,7 @@ from rollnip.nip import Nip
 from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.kinematics import arc_ratio, stretch_excess, surface_depths
+from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.surfaces import Mesh, interval_means
 
 
@@ -21,7 +22,7 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
 
 
 def transmitted(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements, slips: Mask
+    contact: RollingContact, mesh: Mesh, state: ContactState, u: Displacements, slips: Mask
 ) -> tuple[Array, Array, tuple[Array, Array]]:
     """Return int q lambda ds of the upper and the lower surface, and its integrands.
 
@@ -39,6 +40,7 @@ def transmitted(
     The two integrals, (2,) [N/mm]; the mean shear in each of these intervals, per dx, (n,) [MPa];
     and in each of them `stretch_excess` as solved, and with the short waves, (2, n) each [mm].
     """
+    nip, geometry = contact.nip, contact.geometry
     x, finer, uncut = mesh.fine.nodes[1:], mesh.finer(u), mesh.uncut(u)
     shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
     excess = stretch_excess(x, nip, geometry, finer)

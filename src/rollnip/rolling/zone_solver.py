@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -21,14 +20,13 @@ from rollnip.contact import (
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
 from rollnip.contact.problem import Array, Indices
 from rollnip.influence import has_stiff_skin
-from rollnip.model import Model
-from rollnip.nip import Nip
-from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
-from rollnip.rolling.iterations import own_second_order, solve_on_mesh
-from rollnip.rolling.lengths import boundary_layer, dundurs, shortest_zone, thinnest_covering
+from rollnip.rolling.changes import NEGLIGIBLE
+from rollnip.rolling.iterations import solve_on_mesh
+from rollnip.rolling.lengths import boundary_layer, dundurs, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.rolling_contact import RollingContact
+from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.surfaces import Mesh, PairKernels
-from rollnip.rolling.zone_search import SearchState
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
 # pressure.
@@ -41,122 +39,80 @@ Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
 
 
-@dataclass(frozen=True)
-class ZoneSolver:
-    """Solver of a contact with given zones, on meshes with nodes at their ends.
+def crowding_for(contact: RollingContact, layout: Layout, coarsest: float = 0.0) -> Crowding:
+    """Return the crowding that resolves the boundary layers of each zone.
 
-    It knows the lengths of the nip that the meshes must resolve.
+    In stick, tractions change, too, over the length of slip between it and a leading edge.
+    ``coarsest``: length below which nothing need be resolved [mm].
     """
+    least = max(boundary_layer(contact.nip), coarsest)
+    shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
+    return crowding_of(layout.breaks, np.array(shortest))
 
-    nip: Nip
-    model: Model
-    kernels: PairKernels
-    given: GivenStates = field(default_factory=GivenStates)
 
-    @cached_property
-    def boundary(self) -> float:
-        """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
-        return boundary_layer(self.nip)
+def mesh_at_ends(
+    contact: RollingContact, layout: Layout, shape: Shape, kernels: PairKernels
+) -> Mesh:
+    """Return the mesh with nodes at the ends of the zones of a solution."""
+    nodes = cosine_nodes(layout.breaks, *shape)
+    edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
+    exponents = layout.edge_exponents(dundurs(contact.nip), contact.nip.friction)
+    fine = subdivided(nodes, *shape, pieces_of(contact, layout), edges, exponents)
+    return Mesh.on(nodes, kernels, fine)
 
-    @cached_property
-    def _beta(self) -> float:
-        return dundurs(self.nip)
 
-    @cached_property
-    def thinnest_incompressible(self) -> float:
-        """Thickness of the thinner incompressible covering on a rigid core; inf if none [mm]."""
-        return thinnest_covering(self.nip, _NEARLY_INCOMPRESSIBLE)
+def mesh_around(contact: RollingContact, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
+    """Return a mesh on roughly known zones, to seek states node by node."""
+    shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
+    nodes = cosine_nodes(zones.breaks, *shape)
+    fine = subdivided(nodes, *shape, pieces_of(contact, zones))
+    return Mesh.on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
-    def pieces(self, layout: Layout) -> int:
-        """Return the number of linear pieces of an element.
 
-        A thin incompressible covering on a rigid core moves as the second derivative of the
-        pressure, which linear pieces longer than its thickness cannot represent. The number does
-        not depend on that of the elements: pieces of the same length on all sizes of mesh would
-        leave the same error, which no comparison of sizes shows.
-        """
-        wanted = ceil(layout.width / (_WIDTH_PER_PIECE * self.thinnest_incompressible))
-        return max(min(wanted, _MOST_PIECES), PIECES_PER_ELEMENT)
+def pieces_of(contact: RollingContact, layout: Layout) -> int:
+    """Return the number of linear pieces of an element.
 
-    def crowding(self, layout: Layout, coarsest: float = 0.0) -> Crowding:
-        """Return the crowding that resolves the boundary layers of each zone.
+    A thin incompressible covering on a rigid core moves as the second derivative of the pressure,
+    which linear pieces longer than its thickness cannot represent. The number does not depend on
+    that of the elements: pieces of the same length on all sizes of mesh would leave the same error,
+    which no comparison of sizes shows.
+    """
+    thinnest = thinnest_covering(contact.nip, _NEARLY_INCOMPRESSIBLE)
+    wanted = ceil(layout.width / (_WIDTH_PER_PIECE * thinnest))
+    return max(min(wanted, _MOST_PIECES), PIECES_PER_ELEMENT)
 
-        In stick, tractions change, too, over the length of slip between it and a leading edge.
-        ``coarsest``: length below which nothing need be resolved [mm].
-        """
-        least = max(self.boundary, coarsest)
-        shortest = [(least, min(least, max(slip, coarsest))) for slip in layout.slip_beyond_stick]
-        return crowding_of(layout.breaks, np.array(shortest))
 
-    def mesh_at_ends(self, layout: Layout, shape: Shape, kernels: PairKernels) -> Mesh:
-        """Return the mesh with nodes at the ends of the zones of a solution."""
-        nodes = cosine_nodes(layout.breaks, *shape)
-        edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-        exponents = layout.edge_exponents(self._beta, self.nip.friction)
-        fine = subdivided(nodes, *shape, self.pieces(layout), edges, exponents)
-        return Mesh.on(nodes, kernels, fine)
+def solve_with_zones(
+    contact: RollingContact, state: SearchState, shape: Shape
+) -> tuple[MeshSolution, Layout]:
+    """Return the solution on one mesh, and the zones with the ends that it proposes."""
+    nip, layout, before = contact.nip, state.layout, state.solution
+    has_skin = has_stiff_skin((nip.upper, nip.lower))
+    mesh = mesh_at_ends(contact, layout, shape, before.mesh.kernels)
+    start = layout.states_on(mesh.inner), before.lagged.carried(before.mesh, mesh), before.steps
+    # Under a stiff skin the pressure beside an edge responds many times more to a change of the
+    # gap, and the shear to a change of the creep.
+    settled_change = NEGLIGIBLE / _MORE_UNDER_SKIN if has_skin else NEGLIGIBLE
+    latest = solve_on_mesh(contact, mesh, start, GivenStates(), settled_change, layout.zones)
+    proposed = layout.with_proposed_ends(
+        mesh.inner, latest.state, nip.friction, mesh.fine.exponents
+    )
+    # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
+    if not has_skin:
+        least = NEGLIGIBLE * contact.shortest_zone(layout.width)
+        proposed = layout.with_reversals(proposed, least)
+    return latest, proposed
 
-    def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
-        """Return a mesh on roughly known zones, to seek states node by node."""
-        shape = elements_of_zones(zones.breaks, count), uncrowded(zones.states.size)
-        nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape, self.pieces(zones))
-        return Mesh.on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
-    @cached_property
-    def settled_change(self) -> float:
-        """Change of the lagged terms at which iterations stop, over the tolerance.
+def singular(latest: MeshSolution, layout: Layout) -> Array | None:
+    """Return `Layout.singular`; None with friction, or with several zones.
 
-        Under a stiff skin the pressure beside an edge responds many times more to a change of the
-        gap, and the shear to a change of the creep. A mesh that only looks for zones needs no such
-        accuracy.
-        """
-        return NEGLIGIBLE / _MORE_UNDER_SKIN if self._has_skin else NEGLIGIBLE
-
-    @cached_property
-    def _has_skin(self) -> bool:
-        return has_stiff_skin((self.nip.upper, self.nip.lower))
-
-    def renewed(self, state: SearchState) -> SearchState:
-        """Return the state with the second order evaluated from its last solution.
-
-        It is unchanged if the second order has converged, or is fixed.
-        """
-        if self.kernels.is_fixed or state.second_order_settled:
-            return state
-        mesh, lagged, change = own_second_order(
-            self.nip, self.model.geometry, self.kernels, state.solution
-        )
-        change /= self.model.tolerance
-        renewed = replace(state.solution, mesh=mesh, lagged=lagged)
-        return SearchState(state.layout, renewed, change, to_come_after(change, state.change))
-
-    def solve(self, state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
-        """Return the solution on one mesh, and the zones with the ends that it proposes."""
-        layout, before = state.layout, state.solution
-        mesh = self.mesh_at_ends(layout, shape, before.mesh.kernels)
-        start = layout.states_on(mesh.inner), before.lagged.carried(before.mesh, mesh), before.steps
-        latest = solve_on_mesh(
-            self.nip, self.model, mesh, start, self.given, self.settled_change, layout.zones
-        )
-        proposed = layout.with_proposed_ends(
-            mesh.inner, latest.state, self.nip.friction, mesh.fine.exponents
-        )
-        # Under a stiff skin ends without a place are found one by one (decisions 83 and 88).
-        if not self._has_skin:
-            shortest = shortest_zone(self.nip, self.model, layout.width)
-            proposed = layout.with_reversals(proposed, NEGLIGIBLE * shortest)
-        return latest, proposed
-
-    def singular(self, latest: MeshSolution, layout: Layout) -> Array | None:
-        """Return `Layout.singular`; None with friction, or with several zones.
-
-        With friction, unlike surfaces that stick up to an edge have an oscillating inverse square
-        root in the shear, which the pressure follows.
-        """
-        if self.nip.friction > 0.0 or layout.states.size > 1:
-            return None
-        return layout.singular(latest.mesh.inner, latest.state)
+    With friction, unlike surfaces that stick up to an edge have an oscillating inverse square root
+    in the shear, which the pressure follows.
+    """
+    if latest.nip.friction > 0.0 or layout.states.size > 1:
+        return None
+    return layout.singular(latest.mesh.inner, latest.state)
 
 
 def crowds_more(one: Crowding, other: Crowding) -> bool:

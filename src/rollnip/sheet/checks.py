@@ -140,9 +140,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
     )
 
 
-def sheet_verdict(
-    nip: Nip, model: Model, refined: Refined[AnyIterate], final: MeshSolution
-) -> tuple[bool, str]:
+def sheet_verdict(refined: Refined[AnyIterate], final: MeshSolution) -> tuple[bool, str]:
     """Return whether the solution is valid, and its status: a remedy, or its beginning if valid."""
     if not refined.iterate.settled:
         if not isfinite(refined.residual):
@@ -156,16 +154,17 @@ def sheet_verdict(
             f"(conditions violated by {refined.residual:.1e}); try another tolerance, a smaller "
             "load, or tensions further from what friction carries."
         )
-    if reason := impossible(nip, model.geometry, final):
+    if reason := impossible(final):
         return False, reason
-    if not refined.residual <= model.tolerance:
-        wrong = violated(refined.residual, model.tolerance)
+    tolerance = final.contact.tolerance
+    if not refined.residual <= tolerance:
+        wrong = violated(refined.residual, tolerance)
         return False, f"{wrong}; try another tolerance or a smaller load."
-    is_met, missing = verdict(nip, model, final)
-    for side, error in zip(("upper", "lower"), creepage_errors(nip, refined), strict=True):
-        if is_met and not error <= model.tolerance:
+    is_met, missing = verdict(final, tolerance)
+    for side, error in zip(("upper", "lower"), creepage_errors(final.nip, refined), strict=True):
+        if is_met and not error <= tolerance:
             figure = f"creepage on the {side} roller"
-            return False, missed(figure, error, error / model.tolerance, model.tolerance)
+            return False, missed(figure, error, error / tolerance, tolerance)
     if not is_met:
         return False, missing
     return (

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
+from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.claimed_errors import error_of_linear_loss
-from rollnip.rolling.mesh_solution import scale_of_creepage
 from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import SheetPowers

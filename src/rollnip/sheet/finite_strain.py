@@ -25,15 +25,14 @@ from rollnip.all_orders.corrections import PairCorrection, RollerTractions
 from rollnip.all_orders.iteration import (
     CUT_FACTORS,
     MOST_CORRECTIONS,
-    SKIN_TOLERANCE,
     SMALL_CHANGE,
+    with_skin_tolerance,
 )
 from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import skin_thickness
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_slip_works
@@ -58,8 +57,7 @@ def solve_by_iteration(
     The influence functions with the last corrections and the solution with them; None where there
     is no equilibrium, or zones or corrections do not converge.
     """
-    if skin_thickness(formulation.nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
+    model = with_skin_tolerance(formulation.nip, model)
     coarse = coarse_model(model)
     try:
         iterate = _begun(formulation, coarse, kernels, half_width, allowed=coarse.tolerance)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from rollnip.all_orders import with_second_order
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.rolling import PairKernels, half_width_guess, pair_kernels
+from rollnip.rolling import RollingContact, half_width_guess, pair_kernels
 from rollnip.sheet.checks import half_width_with_sheet
 from rollnip.sheet.finite_strain import solve_by_iteration
 from rollnip.sheet.formulation import Formulation, IterateT
@@ -16,16 +18,24 @@ from rollnip.sheet.refine import Refined, refine
 
 def solve_in_geometry(
     formulation: Formulation[IterateT], model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined[IterateT] | None]:
-    """Return influence functions and the solution in the model's geometry; None if none exists."""
+) -> tuple[RollingContact, Refined[IterateT] | None]:
+    """Return the contact to solve in the model's geometry, and its solution; None if none exists.
+
+    In "finite" the contact returned with a solution holds its correction.
+    """
     nip = formulation.nip
-    kernels = pair_kernels(nip, model.geometry, cache)
-    half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    half_width = half_width_with_sheet(nip, half_width)
+    contact = RollingContact(nip, model, pair_kernels(nip, model.geometry, cache))
+    bare_half_width = half_width_guess(nip, contact.kernels)
+    half_width = half_width_with_sheet(nip, bare_half_width)
     if model.geometry == "finite":
-        return solve_by_iteration(formulation, model, kernels, half_width) or (kernels, None)
+        found = solve_by_iteration(formulation, model, contact.kernels, half_width)
+        if found is None:
+            return contact, None
+        kernels, refined = found
+        return replace(contact, kernels=kernels), refined
+    if model.geometry == "second":
+        contact = with_second_order(contact, bare_half_width, cache)
     try:
-        return kernels, refine(formulation, model, kernels, half_width)
+        return contact, refine(formulation, model, contact.kernels, half_width)
     except np.linalg.LinAlgError:
-        return kernels, None
+        return contact, None

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, ContactState
 from rollnip.model import FINITE, Geometry, Model
-from rollnip.rolling import MeshSolution, PairKernels
+from rollnip.rolling import MeshSolution, PairKernels, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
@@ -87,18 +87,24 @@ class Refined(Generic[T]):
         return self.errors_by_side[-1]
 
     def upper_mesh_solution(
-        self, problem: ContactProblem, state: ContactState, terms: tuple[Array, Array]
+        self,
+        contact: RollingContact,
+        problem: ContactProblem,
+        state: ContactState,
+        terms: tuple[Array, Array],
     ) -> MeshSolution:
         """Return the solution in the form of a bare nip's, with the upper interface's tractions.
 
         Parameters
         ----------
+        contact : the contact solved.
         problem, state : what a bare nip on the mesh of the upper interface would have.
         terms : lagged terms of the gap and of the creep of the upper interface, each (n,) [mm].
         """
         iterate, (clearance, offset) = self.iterate, terms
         mesh = iterate.problem.meshes[0]
         return MeshSolution(
+            contact=contact,
             mesh=mesh,
             problem=problem,
             state=state,

@@ -99,9 +99,7 @@ class SheetSolution(SmoothSolution):
         return self.nip.speed * (work + creep * (upper + lower))
 
     def _claimed_errors(self) -> dict[str, float]:
-        nip, geometry, final = self.nip, self.model.geometry, self.final
-        out = claims(nip, geometry, final)
-        mine = self._errors
+        nip, out, mine = self.nip, claims(self.final), self._errors
         speed = nan if nip.speed is None else nip.speed
         load, length = self.load, self.nip_width
         lost = mine["lost_upper"] + mine["lost_lower"]
@@ -319,8 +317,7 @@ class SheetSolution(SmoothSolution):
         return np.interp(x, self.final.x, traction, left=0.0, right=0.0)
 
     def _strain(self, x: Array, side: int) -> Array:
-        geometry, one = self.model.geometry, self._of_side(side)
-        return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
+        return surface_strain(x, self._of_side(side), side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
@@ -349,15 +346,15 @@ class SheetSolution(SmoothSolution):
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
         """Places in and outside the nip, and the displacements of both surfaces there."""
-        x = fine_points(self.final)
+        x, kernels = fine_points(self.final), self.final.contact.kernels
         mesh, state = self.refined.iterate.problem.mesh, self._state
         acting = np.stack(
             [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
         )
-        u = membrane_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
-        if self.kernels.is_linear:
+        u = membrane_displacements(pair_displacements(kernels, x, mesh.fine.nodes, acting))
+        if kernels.is_linear:
             return x, u
-        held = self.kernels.held or mesh.second_fields(state)
+        held = kernels.held or mesh.second_fields(state)
         return x, u + held.at(x)
 
     @property

@@ -13,7 +13,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import MeshSolution, PairKernels
+from rollnip.rolling import MeshSolution, RollingContact
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.checks import (
     compression_reservations,
@@ -94,28 +94,25 @@ def _solve_as_membrane(
     solution does not count as verified.
     """
     version, no_plate = record
-    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
+    contact, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     require_grip(nip, refined)
-    final = membrane_mesh_solution(nip, refined)
-    converged, status = (
-        (False, no_plate[0].text) if no_plate else sheet_verdict(nip, model, refined, final)
-    )
-    strains = StrainSizes.of(nip, model, final)
+    final = membrane_mesh_solution(contact, refined)
+    converged, status = (False, no_plate[0].text) if no_plate else sheet_verdict(refined, final)
+    strains = StrainSizes.of(final)
     solution = SheetSolution(
         nip=nip,
-        model=model,
+        model=contact.model,
         converged=converged,
         status=status,
         reservations=consistent(
             no_plate
             + on_geometry
             + _reservations(nip, refined)
-            + curved_tension_reservations(nip, model)
-            + validity_reservations(nip, model, final, strains)
+            + curved_tension_reservations(nip, contact.model)
+            + validity_reservations(final, strains)
         ),
         solver=refined.solver_info(perf_counter() - start, version),
         final=final,
-        kernels=kernels,
         max_surface_strain=strains.surface,
         refined=refined,
     )
@@ -124,18 +121,18 @@ def _solve_as_membrane(
 
 def _solve_with_fallback(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, Refined[MembraneIterate], tuple[Reservation, ...]]:
-    """Return the solved model, influence functions, the solution, and reservations on the model.
+) -> tuple[RollingContact, Refined[MembraneIterate], tuple[Reservation, ...]]:
+    """Return the contact solved, its solution, and reservations on its model.
 
     Where the asked geometry has no settled solution, simpler ones are tried in turn.
     """
     unsolved: list[Geometry] = []
     while True:
-        kernels, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
+        contact, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
         simpler = SIMPLER.get(model.geometry)
         if refined is not None and (simpler is None or refined.iterate.settled):
             reservations = simpler_geometry_reservations(unsolved, model.geometry)
-            return model, kernels, refined, reservations
+            return contact, refined, reservations
         if simpler is None:
             require_torque(nip, 1.0)
             raise ConvergenceError(_none_found(nip))
@@ -155,9 +152,11 @@ def _none_found(nip: Nip) -> str:
     return none_found(nip, otherwise)
 
 
-def membrane_mesh_solution(nip: Nip, refined: Refined[MembraneIterate]) -> MeshSolution:
+def membrane_mesh_solution(
+    contact: RollingContact, refined: Refined[MembraneIterate]
+) -> MeshSolution:
     """Return a membrane solution in the form of a bare nip's, with the shear of the upper side."""
-    iterate = refined.iterate
+    nip, iterate = contact.nip, refined.iterate
     mesh, lagged = iterate.problem.mesh, iterate.lagged
     total = iterate.state.creepage + iterate.state.creepage_lower
     problem = ContactProblem(
@@ -170,9 +169,8 @@ def membrane_mesh_solution(nip: Nip, refined: Refined[MembraneIterate]) -> MeshS
         friction=nip.friction,
         control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
     )
-    return refined.upper_mesh_solution(
-        problem, iterate.state, (lagged.clearance, lagged.offsets[0])
-    )
+    terms = lagged.clearance, lagged.offsets[0]
+    return refined.upper_mesh_solution(contact, problem, iterate.state, terms)
 
 
 def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:

@@ -10,13 +10,12 @@ import numpy as np
 from rollnip._errors import InvalidInputError
 from rollnip.contact import ContactState, ContactZone, State, contact_zones
 from rollnip.contact.problem import Array
-from rollnip.model import Geometry
+from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.paper.process.algorithms import Alternation
 from rollnip.paper.process.nodes import graded_nodes, states_on
-from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
+from rollnip.rolling import RollingContact, half_width_guess, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
-from rollnip.rolling.iterations import change_of
 from rollnip.rolling.surfaces import Mesh
 
 _MESHES = 4  # the last three graded to the zones of the one before
@@ -81,13 +80,13 @@ def solve_by_process(
         )
     if nip.has_profile:
         raise InvalidInputError("`profile` is not known to the process of the paper; remove it.")
-    kernels = pair_kernels(nip, geometry)
-    half_width = half_width_guess(nip, kernels)
+    contact = RollingContact(nip, Model(geometry=geometry), pair_kernels(nip, geometry))
+    half_width = half_width_guess(nip, contact.kernels)
     breaks = _ROOM * half_width * np.array([-1.0, 1.0])
     zones: tuple[ContactZone, ...] = (ContactZone(-half_width, half_width, State.STICK),)
     for _ in range(_MESHES):
-        mesh = Mesh.on(graded_nodes(breaks, elements), kernels)
-        state, settled = _solved_on(nip, geometry, mesh, zones)
+        mesh = Mesh.on(graded_nodes(breaks, elements), contact.kernels)
+        state, settled = _solved_on(contact, mesh, zones)
         if not np.any(state.states):
             raise InvalidInputError("No contact was found; try a larger load or other materials.")
         zones = contact_zones(mesh.inner, state, nip.friction)
@@ -98,16 +97,16 @@ def solve_by_process(
 
 
 def _solved_on(
-    nip: Nip, geometry: Geometry, mesh: Mesh, zones: tuple[ContactZone, ...]
+    contact: RollingContact, mesh: Mesh, zones: tuple[ContactZone, ...]
 ) -> tuple[ContactState, bool]:
     """Alternate on one mesh until the second-order terms settle, if they do."""
-    lagged, states = initial_terms(nip, mesh), states_on(mesh.inner, zones)
+    lagged, states = initial_terms(contact, mesh), states_on(mesh.inner, zones)
     if not states.any():
         states[np.argmin(np.abs(mesh.inner))] = State.STICK
     for _ in range(_MOST_ITERATIONS):
-        state = Alternation().solve(contact_problem(nip, mesh, lagged), states)
-        updated = lagged_terms(nip, geometry, mesh, state)
-        change = change_of(updated, lagged, mesh, nip, state)
+        state = Alternation().solve(contact_problem(contact, mesh, lagged), states)
+        updated = lagged_terms(contact, mesh, state)
+        change = updated.change_from(lagged, contact, mesh, state)
         lagged = updated
         if not state.settled or not change > _STILL:
             break

@@ -16,8 +16,8 @@ from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
+from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.kinematics import arc_ratio
-from rollnip.rolling.mesh_solution import scale_of_creepage
 from rollnip.rolling.surface_work import mean_shear
 from rollnip.sheet.lagged_terms import (
     creep_in_stick,

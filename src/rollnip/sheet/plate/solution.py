@@ -15,7 +15,7 @@ from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage
 from rollnip.rollers import SIDES
-from rollnip.rolling import Displacements, MeshSolution, stretch_excess
+from rollnip.rolling import Displacements, MeshSolution, RollingContact, stretch_excess
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
@@ -141,9 +141,7 @@ class PlateSolution(SheetSolution):
         return np.interp(x, self._lower_mesh_solution.x, traction, left=0.0, right=0.0)
 
     def _strain(self, x: Array, side: int) -> Array:
-        geometry = self.model.geometry
-        one = self._of_side(side)
-        return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
+        return surface_strain(x, self._of_side(side), side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
         iterate = self._iterate
@@ -169,7 +167,7 @@ class PlateSolution(SheetSolution):
         for side in (0, 1):
             one, mesh = self._of_side(side), iterate.problem.meshes[side]
             acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
-            made = pair_displacements(self.kernels, x, one.nodes, acting)
+            made = pair_displacements(self.final.contact.kernels, x, one.nodes, acting)
             xx, zz, xz = made[3 * side : 3 * side + 3]
             rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
             if not mesh.kernels.is_linear:
@@ -216,7 +214,7 @@ class PlateSolution(SheetSolution):
         return out
 
 
-def plate_mesh_solution(refined: Refined[PlateIterate]) -> MeshSolution:
+def plate_mesh_solution(contact: RollingContact, refined: Refined[PlateIterate]) -> MeshSolution:
     """Return a solution in the form of a bare nip's, with the upper interface's tractions."""
     iterate = refined.iterate
     state, problem = iterate.state, iterate.problem
@@ -237,7 +235,7 @@ def plate_mesh_solution(refined: Refined[PlateIterate]) -> MeshSolution:
     )
     lagged = iterate.lagged
     terms = lagged.clearance[0], lagged.offsets[0]
-    return refined.upper_mesh_solution(_as_problem(iterate, 0), both, terms)
+    return refined.upper_mesh_solution(contact, _as_problem(iterate, 0), both, terms)
 
 
 def lower_mesh_solution(refined: Refined[PlateIterate], upper: MeshSolution) -> MeshSolution:

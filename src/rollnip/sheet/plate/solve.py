@@ -13,7 +13,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import MeshSolution, PairKernels, half_width_guess, pair_kernels
+from rollnip.rolling import MeshSolution, RollingContact, half_width_guess, pair_kernels
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.checks import (
     compression_reservations,
@@ -62,7 +62,7 @@ def solve_plate(
     start, (version, reservations) = perf_counter(), record
     assert nip.sheet is not None
     asked = nip.sheet.bending is True
-    model, kernels, refined, on_geometry = _solve_with_fallback(nip, model, cache)
+    contact, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     reservations += on_geometry
     if refined is None:
         if asked:
@@ -77,9 +77,7 @@ def solve_plate(
     if not asked and not refined.iterate.settled:
         return None
     require_grip(nip, refined)
-    found = _assembled(
-        nip, model, kernels, refined, (reservations, perf_counter() - start, version)
-    )
+    found = _assembled(contact, refined, (reservations, perf_counter() - start, version))
     return found if asked or found.converged else None
 
 
@@ -95,52 +93,49 @@ def _is_settled(refined: Refined[PlateIterate] | None) -> bool:
 
 def _solve_with_fallback(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
-    """Return the solved model, influence functions, the solution, and reservations on the model.
+) -> tuple[RollingContact, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
+    """Return the contact solved, its solution, and reservations on its model.
 
     Simpler geometries are tried until one has a converged solution. Where none has, the first
     solution is returned; None where there is no solution at all.
     """
-    tried: list[tuple[Model, PairKernels, Refined[PlateIterate] | None]] = []
+    tried: list[tuple[RollingContact, Refined[PlateIterate] | None]] = []
     now: Model | None = model
     while now is not None:
-        tried.append((now, *solve_in_geometry(PlateFormulation(nip), now, cache)))
-        if _is_settled(tried[-1][2]):
+        tried.append(solve_in_geometry(PlateFormulation(nip), now, cache))
+        if _is_settled(tried[-1][1]):
             break
         simpler = SIMPLER.get(now.geometry)
         now = None if simpler is None else replace(now, geometry=simpler)
-    settled = [one for one in tried if _is_settled(one[2])]
-    model, kernels, refined = (settled or [one for one in tried if one[2]] or tried)[0]
-    models = [one for one, _, _ in tried]
-    unsolved = [one.geometry for one in models[: models.index(model)]]
-    return model, kernels, refined, simpler_geometry_reservations(unsolved, model.geometry)
+    settled = [one for one in tried if _is_settled(one[1])]
+    contact, refined = (settled or [one for one in tried if one[1]] or tried)[0]
+    geometries = [one.geometry for one, _ in tried]
+    unsolved = geometries[: geometries.index(contact.geometry)]
+    return contact, refined, simpler_geometry_reservations(unsolved, contact.geometry)
 
 
 def _assembled(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
+    contact: RollingContact,
     refined: Refined[PlateIterate],
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     reservations, seconds, version = record
-    final = plate_mesh_solution(refined)
+    final = plate_mesh_solution(contact, refined)
     both = final, lower_mesh_solution(refined, final)
-    converged, status = _verdict(nip, model, refined, both)
-    strains = _strains(nip, model, both)
+    converged, status = _verdict(refined, both)
+    strains = _strains(both)
     reservations += compression_reservations(refined.figures, refined.errors)
-    reservations += curved_tension_reservations(nip, model)
-    reservations += validity_reservations(nip, model, final, strains)
+    reservations += curved_tension_reservations(contact.nip, contact.model)
+    reservations += validity_reservations(final, strains)
     plain: Any = refined
     solution = PlateSolution(
-        nip=nip,
-        model=model,
+        nip=contact.nip,
+        model=contact.model,
         converged=converged,
         status=status,
         reservations=consistent(reservations),
         solver=refined.solver_info(seconds, version),
         final=final,
-        kernels=kernels,
         max_surface_strain=strains.surface,
         refined=plain,
     )
@@ -148,10 +143,7 @@ def _assembled(
 
 
 def _verdict(
-    nip: Nip,
-    model: Model,
-    refined: Refined[PlateIterate],
-    rounds: tuple[MeshSolution, MeshSolution],
+    refined: Refined[PlateIterate], rounds: tuple[MeshSolution, MeshSolution]
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
     iterate = refined.iterate
@@ -167,25 +159,26 @@ def _verdict(
             "estimated; try another tolerance, another load or other tensions, or "
             "`bending = false`."
         )
-    upper, lower = (_as_allowed(nip, model, side, final) for side, final in enumerate(rounds))
-    converged, status = sheet_verdict(nip, model, refined, upper)
+    upper, lower = (_as_allowed(side, final) for side, final in enumerate(rounds))
+    converged, status = sheet_verdict(refined, upper)
     if converged:
-        below, reason = sheet_verdict(nip, model, refined, lower)
+        below, reason = sheet_verdict(refined, lower)
         converged, status = (True, status) if below else (False, f"On the lower side: {reason}")
     return converged, status
 
 
-def _as_allowed(nip: Nip, model: Model, side: int, final: MeshSolution) -> MeshSolution:
+def _as_allowed(side: int, final: MeshSolution) -> MeshSolution:
     """Return one side for its verdict, without the error of a peak that is within its own limit."""
-    peak = final.error.peak_pressure
-    if peak > PlateFormulation(nip).peak_tolerances(model)[side] * final.figures.peak_pressure:
+    peak, formulation = final.error.peak_pressure, PlateFormulation(final.nip)
+    most = formulation.peak_tolerances(final.contact.model)[side] * final.figures.peak_pressure
+    if peak > most:
         return final
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 
 
-def _strains(nip: Nip, model: Model, rounds: tuple[MeshSolution, MeshSolution]) -> StrainSizes:
+def _strains(rounds: tuple[MeshSolution, MeshSolution]) -> StrainSizes:
     """Return the larger strains of both interfaces."""
-    one, two = (StrainSizes.of(nip, model, final) for final in rounds)
+    one, two = (StrainSizes.of(final) for final in rounds)
     return StrainSizes(
         max(one.surface, two.surface), max(one.second, two.second), max(one.skin, two.skin)
     )

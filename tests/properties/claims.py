@@ -43,12 +43,21 @@ ALLOWED = 3.0  # times the claim
 
 @dataclass(frozen=True)
 class Fine:
-    """One fine solution: mesh, tractions, zones and figures."""
+    """One fine solution: the contact solved, mesh, tractions, zones and figures."""
 
+    contact: object
     mesh: object
     state: object
     zones: tuple
     figures: Figures
+
+    @property
+    def nip(self):
+        return self.contact.nip
+
+    @property
+    def geometry(self):
+        return self.contact.geometry
 
     @property
     def displacements(self):
@@ -104,7 +113,8 @@ def reference(solution, finer=FINER, most=MOST):
         (0.6, STILL),
         (1.0, STILL),
     ]
-    found = [Fine(solution.final.mesh, solution.final.state, solution.final.zones, None)]
+    final = solution.final
+    found = [Fine(final.contact, final.mesh, final.state, final.zones, None)]
     for share, still in steps:
         size = min(max(finer * count, FEWEST), most) * share
         fine = _fine(solution, found[-1], size, still=still)
@@ -163,7 +173,7 @@ def _settled_on(solution, mesh, before, still):
     if states[0] != State.FREE or states[-1] != State.FREE:
         return None
     zones = contact_zones(problem.x, state, nip.friction)
-    return Fine(mesh, state, zones, _figures(problem, state, zones, lagged.lean))
+    return Fine(contact, mesh, state, zones, _figures(problem, state, zones, lagged.lean))
 
 
 def _solved(problem, states):

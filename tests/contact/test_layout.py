@@ -345,6 +345,12 @@ def test_ends_on_their_way_never_cross():
         assert np.all(np.sign(moved.breaks - layout.breaks) == wanted)
 
 
+def with_slip(layout, x, state, least):
+    """The layout with slip zones at edges of like surfaces, at a friction of 1."""
+    nothing_turns = {"exponents": (0j, 0j), "matters": lambda _: False}
+    return slipping_at_edges(layout, x, state, 1.0, least, **nothing_turns)
+
+
 def carter_without_slip(share, count=22):
     """A contact that sticks all over under a share of what friction can bear."""
     problem = half_planes(
@@ -358,19 +364,19 @@ def carter_without_slip(share, count=22):
 def test_slip_shorter_than_the_elements_is_as_long_as_carter_has_it(share):
     """The first element is 0.01 long, the slip half of it and a twentieth."""
     problem, layout, state = carter_without_slip(share)
-    found = slipping_at_edges(layout, problem.x, state, 1.0, 1e-5)
+    found = with_slip(layout, problem.x, state, 1e-5)
     assert found.states.tolist() == [PLUS if share > 0.0 else MINUS, STICK]
     carter = 2.0 * (1.0 - np.sqrt(1.0 - abs(share)))
     np.testing.assert_allclose(found.breaks, [-1.0, -1.0 + carter, 1.0], atol=0.02 * carter)
-    assert slipping_at_edges(layout, problem.x, state, 1.0, 2.0 * carter).is_like(layout)
+    assert with_slip(layout, problem.x, state, 2.0 * carter).is_like(layout)
 
 
 def test_no_slip_is_found_without_traction_or_beside_slip():
     problem, layout, state = carter_without_slip(0.0)
-    assert slipping_at_edges(layout, problem.x, state, 1.0, 1e-9).is_like(layout)
+    assert with_slip(layout, problem.x, state, 1e-9).is_like(layout)
     problem, _, state = carter_without_slip(0.005)
     slips = Layout(np.array([-1.0, 1.0]), np.array([PLUS], dtype=np.int8))
-    assert slipping_at_edges(slips, problem.x, state, 1.0, 1e-9).is_like(slips)
+    assert with_slip(slips, problem.x, state, 1e-9).is_like(slips)
 
 
 def planted(slack, count=22):
@@ -386,7 +392,7 @@ def test_slip_at_the_leading_edge_is_found_from_the_power_of_three_halves():
     """Stick that is d too long leaves y^1.5 - 1.5 d y^0.5 there."""
     layout = Layout(np.array([0.0, 1.0]), np.array([STICK], dtype=np.int8))
     x, state = planted(lambda y: y**1.5 - 1.5 * 0.002 * np.sqrt(y))
-    found = slipping_at_edges(layout, x, state, 1.0, 1e-4)
+    found = with_slip(layout, x, state, 1e-4)
     assert found.states.tolist() == [STICK, PLUS]
     np.testing.assert_allclose(found.breaks, [0.0, 1.0 - 0.002, 1.0], atol=1e-5)
 
@@ -395,7 +401,7 @@ def test_what_falls_with_the_distance_from_an_edge_is_no_slip():
     """A term of y^1.5 lg y tells three nodes of a length that is a share of theirs."""
     layout = Layout(np.array([0.0, 1.0]), np.array([STICK], dtype=np.int8))
     x, state = planted(lambda y: 0.4 * np.sqrt(y) * (1.0 + y * np.log(np.maximum(y, 1e-9))))
-    assert slipping_at_edges(layout, x, state, 1.0, 1e-6).is_like(layout)
+    assert with_slip(layout, x, state, 1e-6).is_like(layout)
 
 
 def test_a_longer_zone_does_not_vanish_for_an_end_without_a_place():

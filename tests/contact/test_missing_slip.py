@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rollnip.contact import ContactState, Layout, State, TurningSlip, cosine_nodes
+from rollnip.contact import ContactState, Layout, State, TurningSlip, ZoneEnd, cosine_nodes
 from rollnip.contact.missing_slip import slip_by_turning
 
 
@@ -23,13 +23,13 @@ def test_no_slip_is_left_out_where_tractions_turn_into_the_bound(sign, leads):
     A random nip with Poisson's ratio 0.499 raised an OverflowError here.
     """
     x, state = gripping(State.STICK, -0.3 * sign)
-    edge = x.size - 1 if leads else 0
-    assert slip_by_turning(x, state, 0.2, edge, 1e-5j * sign, leads=leads) is None
+    node, inwards = (x.size - 1, -1) if leads else (0, 1)
+    assert slip_by_turning(ZoneEnd(x, state, node, inwards, 1e-5j * sign), 0.2) is None
 
 
 def test_a_surface_that_slips_up_to_its_edge_leaves_nothing_out():
     x, state = gripping(State.SLIP_PLUS, 0.2)
-    assert slip_by_turning(x, state, 0.2, 0, 0.1j, leads=False) is None
+    assert slip_by_turning(ZoneEnd(x, state, 0, 1, 0.1j), 0.2) is None
 
 
 @pytest.mark.parametrize("leads", [True, False])

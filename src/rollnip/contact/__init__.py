@@ -3,6 +3,7 @@
 from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_states, stick_and_slip
 from rollnip.contact.edge_exponents import left_out_of_creep, left_out_of_tractions
+from rollnip.contact.ends import ZoneEnd
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
 from rollnip.contact.layout import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
@@ -46,6 +47,7 @@ __all__ = [
     "States",
     "Subdivision",
     "TurningSlip",
+    "ZoneEnd",
     "carry",
     "contact_intervals",
     "contact_zones",

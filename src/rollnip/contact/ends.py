@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import copysign, inf, sqrt
 from typing import TypeVar
 
@@ -18,68 +19,82 @@ Three = Sequence[float]
 _Number = TypeVar("_Number", float, complex)
 
 
-def roots_beside(
-    x: Array, state: ContactState, end: int, step: int, kappa: complex
-) -> tuple[list[float], list[complex]]:
-    """Return the distances of three nodes from an end, and p + i q there over their square roots.
+@dataclass(frozen=True, slots=True)
+class ZoneEnd:
+    """The end of a zone, seen from inside it, with the tractions of a solution.
 
-    Parameters
+    Attributes
     ----------
-    end : index in ``x`` of the node at the end.
-    step : from node to node; its sign points into the zone.
-    kappa : see `edge_exponents`. The factor (s/s_1)^kappa is taken out of p + i q at the distances
-        s_1, s_2, ... What is left vanishes at the edge as a square root.
-    """
-    # Plain numbers: NumPy would be slower for three values.
-    beside, place = [end + step, end + 2 * step, end + 3 * step], x.item(end)
-    distance = [abs(x.item(node) - place) for node in beside]
-    tractions = [complex(state.pressure.item(i), state.shear.item(i)) for i in beside]
-    roots = [t / sqrt(s) for t, s in zip(tractions, distance, strict=True)]
-    if kappa:
-        roots = [r * (s / distance[0]) ** -kappa for r, s in zip(roots, distance, strict=True)]
-    return distance, roots
-
-
-def proposed_move(
-    x: Array,
-    state: ContactState,
-    end: int,
-    inwards: int,
-    weight: complex,
-    kappa: complex,
-    furthest: int,
-) -> float:
-    """Return how far outwards the end of a zone should move; see `outward_move`.
-
-    Parameters
-    ----------
-    x, state : nodes and a solution.
-    end : index of the node at the end.
+    x, state : nodes [mm] and a solution.
+    node : index of the node at the end.
     inwards : 1 or -1, step of the index into the zone.
-    weight : of p + i q, of which the real part vanishes at the end.
-    kappa : see `edge_exponents`.
-    furthest :
-        0 at an end with a square root. At a smooth end, the most elements between the nodes used:
-        values at the first nodes may be no larger than their errors, and if they propose a place
-        beyond their own reach, nodes further inside are tried.
+    kappa : see `edge_exponents`. The factor (s/s_1)^kappa is taken out of p + i q at the distances
+        s_1, s_2, ... of the nodes inside. What is left vanishes at the end as a square root.
     """
-    move, reach, apart = inf, 0.0, 1
-    while abs(move) > reach and apart <= max(furthest, 1):
-        distance, roots = roots_beside(x, state, end, inwards * apart, kappa)
-        values = [(weight * root).real for root in roots]
-        move, apart = outward_move(distance, values, smooth=furthest > 0), 2 * apart
-        reach = distance[-1]
-    return move
 
+    x: Array
+    state: ContactState
+    node: int
+    inwards: int
+    kappa: complex = 0j
 
-def singular_part(x: Array, state: ContactState, end: int, inwards: int) -> float:
-    """Return the inverse square root in the pressure beside an edge, times its first distance.
+    @property
+    def leads(self) -> bool:
+        """Whether it is the leading end of the zone."""
+        return self.inwards < 0
 
-    ``end``, ``inwards``: as in `proposed_move`.
-    """
-    distance, roots = roots_beside(x, state, end, inwards, 0j)
-    misplaced = determinant((1.0, 1.0, 1.0), distance, [root.real for root in roots])
-    return misplaced / determinant((1.0, 1.0, 1.0), distance, RESPONSE) * distance[0]
+    @property
+    def place(self) -> float:
+        """Place of the end [mm]."""
+        return float(self.x.item(self.node))
+
+    def roots(self, apart: int = 1) -> tuple[list[float], list[complex]]:
+        """Return the distances of three nodes, and p + i q there over their square roots.
+
+        ``apart``: elements from each of these nodes to the next.
+        """
+        # Plain numbers: NumPy would be slower for three values.
+        beside = [self.node + self.inwards * apart * count for count in (1, 2, 3)]
+        distance = [abs(self.x.item(node) - self.place) for node in beside]
+        pressure, shear = self.state.pressure, self.state.shear
+        tractions = [complex(pressure.item(node), shear.item(node)) for node in beside]
+        roots = [t / sqrt(s) for t, s in zip(tractions, distance, strict=True)]
+        if self.kappa:
+            turned = zip(roots, distance, strict=True)
+            roots = [r * (s / distance[0]) ** -self.kappa for r, s in turned]
+        return distance, roots
+
+    def move(self, weight: complex, apart: int, *, smooth: bool) -> float:
+        """Return how far outwards the end should move, by three nodes; see `outward_move` [mm].
+
+        ``weight`` : of p + i q, of which the real part vanishes at the end.
+        """
+        distance, roots = self.roots(apart)
+        return outward_move(distance, [(weight * root).real for root in roots], smooth=smooth)
+
+    def proposed_move(self, weight: complex, furthest: int) -> float:
+        """Return how far outwards the end should move [mm], by nodes near enough to tell.
+
+        Parameters
+        ----------
+        weight : as for `move`.
+        furthest :
+            0 at an end with a square root. At a smooth end, the most elements between the nodes
+            used: values at the first nodes may be no larger than their errors, and if they propose
+            a place beyond their own reach, nodes further inside are tried.
+        """
+        move, reach, apart = inf, 0.0, 1
+        while abs(move) > reach and apart <= max(furthest, 1):
+            move = self.move(weight, apart, smooth=furthest > 0)
+            reach = abs(self.x.item(self.node + 3 * self.inwards * apart) - self.place)
+            apart *= 2
+        return move
+
+    def singular_part(self) -> float:
+        """Return the inverse square root in the pressure, times the first distance."""
+        distance, roots = self.roots()
+        misplaced = determinant((1.0, 1.0, 1.0), distance, [root.real for root in roots])
+        return misplaced / determinant((1.0, 1.0, 1.0), distance, RESPONSE) * distance[0]
 
 
 def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
@@ -103,7 +118,7 @@ def outward_move(distance: Three, roots: Three, *, smooth: bool) -> float:
 
 
 def root_at(distance: Three, roots: Sequence[complex]) -> complex:
-    """Return the factor of the square root at an edge, from `roots_beside`."""
+    """Return the factor of the square root at an edge, from `ZoneEnd.roots`."""
     return determinant(roots, distance, RESPONSE) / determinant((1.0, 1.0, 1.0), distance, RESPONSE)
 
 

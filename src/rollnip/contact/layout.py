@@ -20,7 +20,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rollnip.contact.edge_exponents import exponent_at_leading_edge
-from rollnip.contact.ends import proposed_move, singular_part
+from rollnip.contact.ends import ZoneEnd
 from rollnip.contact.features import ContactZone, with_stick_between, zones_between
 from rollnip.contact.problem import (
     FREE,
@@ -376,11 +376,11 @@ class Layout:
                 # The sign is that of the slip: in a short stick zone the shear may change sign.
                 inwards, slip = (-1, after) if before == STICK else (1, before)
                 weight, kappa = complex(friction, 1.0 if slip == SLIP_PLUS else -1.0), 0j
-            # At a smooth end nodes further inside are tried, see `proposed_move`.
+            # At a smooth end nodes further inside are tried, see `ZoneEnd.proposed_move`.
             smooth = before == STICK and after != FREE
             furthest = (ends[number] - ends[number - 1]) // 3 if smooth else 0
-            step = proposed_move(x, state, ends[number], inwards, weight, kappa, furthest)
-            breaks.append(place - inwards * step)
+            end = ZoneEnd(x, state, ends[number], inwards, kappa)
+            breaks.append(place - inwards * end.proposed_move(weight, furthest))
         return Layout(np.array(breaks), self.states)
 
     def singular(self, x: Array, state: ContactState) -> Array:
@@ -389,5 +389,6 @@ class Layout:
         Each is the factor of the square root at that edge times the move that the edge needs,
         positive towards the leading edge [MPa sqrt(mm)].
         """
-        ends = zip(self.ends(x)[[0, -1]].tolist(), (1, -1), strict=True)
-        return np.array([inwards * singular_part(x, state, end, inwards) for end, inwards in ends])
+        first, last = self.ends(x)[[0, -1]].tolist()
+        trailing, leading = ZoneEnd(x, state, first, 1), ZoneEnd(x, state, last, -1)
+        return np.array([trailing.singular_part(), -leading.singular_part()])

@@ -9,7 +9,7 @@ from math import copysign, exp, inf, log, pi
 
 import numpy as np
 
-from rollnip.contact.ends import outward_move, root_at, roots_beside
+from rollnip.contact.ends import ZoneEnd, root_at
 from rollnip.contact.layout import Layout
 from rollnip.contact.problem import STICK, Array, ContactState, Mask, State
 
@@ -20,8 +20,8 @@ def slipping_at_edges(
     state: ContactState,
     friction: float,
     least: float,
-    exponents: tuple[complex, ...] = (),
-    matters: Callable[[TurningSlip], bool] = lambda _: False,
+    exponents: tuple[complex, ...],
+    matters: Callable[[TurningSlip], bool],
 ) -> Layout:
     """Return the layout with slip zones added at edges where stick leaves out some slip.
 
@@ -33,18 +33,17 @@ def slipping_at_edges(
     """
     ends, breaks, states = layout.ends(x), layout.breaks.tolist(), layout.states.tolist()
     edges = np.flatnonzero(layout.is_edge).tolist()
-    kappas = exponents or (0j,) * len(edges)
     # From the last edge on, so that a new zone does not change the numbers of edges still to come.
-    for edge, kappa in zip(edges[::-1], kappas[::-1], strict=True):
+    for edge, kappa in zip(edges[::-1], exponents[::-1], strict=True):
         leads = layout.leads(edge)
         if layout.states[edge - leads] != STICK:
             continue
-        beside = x, state, friction, int(ends[edge]), kappa
-        turning = slip_by_turning(*beside, leads=leads)
+        end = ZoneEnd(x, state, int(ends[edge]), -1 if leads else 1, kappa)
+        turning = slip_by_turning(end, friction)
         if turning is not None and matters(turning):
             length, slip = turning.length, turning.state
         else:
-            length, slip = slip_beside(*beside, leads=leads)
+            length, slip = slip_beside(end, friction)
             if length <= max(least, 0.0 if turning is None else turning.extent):
                 continue
         place = breaks[edge]
@@ -54,31 +53,17 @@ def slipping_at_edges(
     return found if found.is_proper else layout
 
 
-def slip_beside(
-    x: Array, state: ContactState, friction: float, edge: int, kappa: complex, *, leads: bool
-) -> tuple[float, State]:
-    """Return the length of a slip zone missing between stick and an edge, and its state.
+def slip_beside(edge: ZoneEnd, friction: float) -> tuple[float, State]:
+    """Return the length of a slip zone missing between stick and an edge [mm], and its state.
 
     Leaving out a slip zone much shorter than the elements changes mu p - |q| as misplacing the end
     of stick outwards by its length does. Other effects that three nodes mistake for it depend on
     the spacing of the nodes. So the length is accepted only if it agrees, to within itself, with
     the length from nodes twice as far apart; otherwise it is 0.
-
-    Parameters
-    ----------
-    edge : index in ``x`` of the node at the edge.
-    kappa : of the edge, see `edge_exponents`.
-    leads : whether it is the leading edge of its piece of the contact.
     """
-    inwards = -1 if leads else 1
-    beside = [roots_beside(x, state, edge, apart * inwards, kappa) for apart in (1, 2)]
     for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
-        near, far = (
-            -outward_move(
-                distance, [friction * one.real - sign * one.imag for one in roots], smooth=leads
-            )
-            for distance, roots in beside
-        )
+        slack = complex(friction, sign)  # times p + i q has the real part mu p - sign q
+        near, far = (-edge.move(slack, apart, smooth=edge.leads) for apart in (1, 2))
         if abs(far - near) < near < inf:
             return near, slip
     return 0.0, State.STICK
@@ -141,31 +126,28 @@ class TurningSlip:
             layout, number = fewer, number - self.leads
 
 
-def slip_by_turning(
-    x: Array, state: ContactState, friction: float, edge: int, kappa: complex, *, leads: bool
-) -> TurningSlip | None:
+def slip_by_turning(edge: ZoneEnd, friction: float) -> TurningSlip | None:
     """Return the slip zone that turning tractions call for; None where they do not turn.
 
     Towards an edge up to which they stick, the traction of unlike surfaces turns with ln s
     (`edge_exponents`) until it exceeds the bound.
-
-    Parameters are those of `slip_beside`.
     """
-    inwards = -1 if leads else 1
-    sticks = state.states[edge + inwards :: inwards] == STICK
-    if not (kappa.imag and sticks[0]):
+    turns, inside = edge.kappa.imag, slice(edge.node + edge.inwards, None, edge.inwards)
+    sticks = edge.state.states[inside] == STICK
+    if not (turns and sticks[0]):
         return None
-    distance, roots = roots_beside(x, state, edge, inwards, kappa)
+    distance, roots = edge.roots()
     root = root_at(distance, roots)
     # mu p - sign q is the real part of (mu + i sign)(p + i q): it is 0 where that has turned to i.
-    side = copysign(1.0, kappa.imag)
+    side = copysign(1.0, turns)
     turn, slip = min(
         (0.5 * pi + side * phase((friction + 1j * sign) * root), slip)
         for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0))
     )
-    length = abs(x[edge + inwards * int(np.argmin(np.append(sticks, False)))] - x[edge])
+    stuck = int(np.argmin(np.append(sticks, False)))  # number of sticking nodes beside the edge
+    length = abs(edge.x[edge.node + edge.inwards * stuck] - edge.place)
     # In a zone that is shorter than the reach, tractions are not those of an edge alone.
-    if not -turn < abs(kappa.imag) * log(length / distance[0]):
+    if not -turn < abs(turns) * log(length / distance[0]):
         return None
-    reach = float(distance[0] * exp(-turn / abs(kappa.imag)))
-    return TurningSlip(reach, slip, abs(root), float(x[edge]), leads)
+    reach = float(distance[0] * exp(-turn / abs(turns)))
+    return TurningSlip(reach, slip, abs(root), edge.place, edge.leads)

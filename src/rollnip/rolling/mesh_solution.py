@@ -16,6 +16,7 @@ from rollnip.contact import (
     ContactState,
     ContactZone,
     TurningSlip,
+    ZoneEnd,
     slip_by_turning,
 )
 from rollnip.contact.problem import Array
@@ -177,7 +178,7 @@ class MeshSolution:
         fine, x, friction = self.mesh.fine, self.mesh.inner, self.problem.friction
         edges = zip(fine.edges, fine.exponents, strict=True)
         found = (
-            slip_by_turning(x, self.state, friction, edge, kappa, leads=bool(number % 2))
+            slip_by_turning(ZoneEnd(x, self.state, edge, -1 if number % 2 else 1, kappa), friction)
             for number, (edge, kappa) in enumerate(edges)
         )
         return tuple(slip for slip in found if slip is not None)

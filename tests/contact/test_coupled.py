@@ -13,8 +13,6 @@ from rollnip.contact import (
     Safeguarded,
     State,
     contact_zones,
-    creep,
-    gap,
 )
 from rollnip.contact.coupled import solve_states
 from rollnip.contact.problem import shear_signs
@@ -25,11 +23,11 @@ def violation(problem, found):
     touching = found.states != State.FREE
     stick = found.states == State.STICK
     bound = problem.friction * np.maximum(found.pressure, 0.0)
-    rate = creep(problem, found)
+    rate = problem.gap_and_creep(found)[1]
     slip = touching & ~stick
     wrong = [
-        np.max(-gap(problem, found)),
-        np.max(np.abs(gap(problem, found)[touching]), initial=0.0),
+        np.max(-problem.gap_and_creep(found)[0]),
+        np.max(np.abs(problem.gap_and_creep(found)[0][touching]), initial=0.0),
         np.max(-found.pressure),
         np.max(np.abs(found.shear) - bound),
     ]

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from rollnip.contact import ContactProblem, Control, State, influence_of
+from rollnip.contact import ContactProblem, Control, State
 from rollnip.influence import Window, displacement_matrix, load_weights, tabulate
 from rollnip.paper.process.nodes import graded_nodes
 
@@ -35,12 +35,7 @@ def _half_spaces(
         x=nodes[1:-1],
         weights=load_weights(nodes),
         clearance=clearance(nodes[1:-1]),
-        influence=influence_of(
-            normal_pressure=even[:-1],
-            normal_shear=-odd[:-1],
-            creep_pressure=np.diff(odd, axis=0),
-            creep_shear=np.diff(even, axis=0),
-        ),
+        influence=np.block([[even[:-1], -odd[:-1]], [np.diff(odd, axis=0), np.diff(even, axis=0)]]),
         creep_length=np.diff(nodes[1:]),
         creep_offset=np.zeros(nodes.size - 2),
         friction=friction,
@@ -95,11 +90,11 @@ def _random_problem(
         x=np.arange(n, dtype=float),
         weights=rng.uniform(0.5, 1.5, n),
         clearance=rng.normal(size=n),
-        influence=influence_of(
-            normal_pressure=_matrices(rng, n),
-            normal_shear=coupling * rng.normal(size=(n, n)),
-            creep_pressure=coupling * rng.normal(size=(n, n)),
-            creep_shear=-_matrices(rng, n),
+        influence=np.block(
+            [
+                [_matrices(rng, n), coupling * rng.normal(size=(n, n))],
+                [coupling * rng.normal(size=(n, n)), -_matrices(rng, n)],
+            ]
         ),
         creep_length=np.ones(n),
         creep_offset=rng.normal(size=n),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import ContactState, State, creep, gap, left_out_of_creep
+from rollnip.contact import ContactState, State, left_out_of_creep
 from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import RollingContact, fields_at, hoop_curvature, pair_kernels
 from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
@@ -76,10 +76,10 @@ def test_problem_and_fresh_fields_agree(solved, name):
     nodes = mesh.nodes[1:]
     fields = fields_at(nodes, solution.final)
     depth = 0.125 * solution.nip.curvature * solution.nip_width**2
-    np.testing.assert_allclose(fields.gap[:-1], gap(problem, state), atol=1e-9 * depth)
+    np.testing.assert_allclose(fields.gap[:-1], problem.gap_and_creep(state)[0], atol=1e-9 * depth)
     lengths = problem.creep_length
     strain = 0.5 * solution.nip_width * solution.nip.curvature
-    found = creep(problem, state)
+    found = problem.gap_and_creep(state)[1]
     if fine.elements:  # less what a root leaves at the leading edge
         own = problem.creep_shear[-2, -2] * state.shear[-2]
         share = left_out_of_creep(0j, fine.pieces).real

@@ -26,9 +26,6 @@ from rollnip.contact.problem import (
     Control,
     State,
     States,
-    creep,
-    gap,
-    influence_of,
 )
 
 __all__ = [
@@ -52,12 +49,9 @@ __all__ = [
     "contact_intervals",
     "contact_zones",
     "cosine_nodes",
-    "creep",
     "crowding_of",
     "cubic_error",
     "elements_of_zones",
-    "gap",
-    "influence_of",
     "interior_point",
     "left_out_of_creep",
     "left_out_of_tractions",

@@ -23,7 +23,6 @@ from rollnip.contact.problem import (
     Indices,
     Mask,
     States,
-    gap_and_creep,
     shear_signs,
 )
 
@@ -170,7 +169,7 @@ def next_states(
     tension keep their states.
     """
     states, pressure = solution.states, solution.pressure
-    depth, drift = gap_and_creep(problem, solution)
+    depth, drift = problem.gap_and_creep(solution)
     in_contact, little = states != FREE, rounding * np.abs(pressure).max()
     kept: Mask = pressure >= -little
     if holds_contact:

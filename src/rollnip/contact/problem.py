@@ -62,7 +62,7 @@ class ContactProblem:
     weights : (n,) load of a unit nodal pressure [mm].
     clearance : (n,) gap between the undeformed rollers at first touch [mm].
     influence : (2 n, 2 n) block matrix [[normal_pressure, normal_shear],
-        [creep_pressure, creep_shear]] [mm/MPa]; see `influence_of`.
+        [creep_pressure, creep_shear]] [mm/MPa].
     creep_length, creep_offset : (n,) factor of xi in the creep, and part without tractions [mm].
     friction : Coulomb coefficient mu >= 0.
     control : the prescribed quantities.
@@ -76,6 +76,16 @@ class ContactProblem:
     creep_offset: Array
     friction: float
     control: Control
+
+    def gap_and_creep(self, state: ContactState) -> tuple[Array, Array]:
+        """Return gaps at nodes and creeps of intervals [mm]; the slip velocity is -V creep/length.
+
+        The pressure and shear of ``state`` may be any.
+        """
+        made = self.influence @ np.concatenate([state.pressure, state.shear])
+        n = self.x.size
+        rigid = self.creep_offset + state.creepage * self.creep_length
+        return self.clearance - state.approach + made[:n], rigid + made[n:]
 
     @property
     def normal_pressure(self) -> Array:
@@ -96,17 +106,6 @@ class ContactProblem:
     def creep_shear(self) -> Array:
         """Creep per nodal shear, (n, n) [mm/MPa]."""
         return self.influence[self.x.size :, self.x.size :]
-
-
-def influence_of(
-    *, normal_pressure: Array, normal_shear: Array, creep_pressure: Array, creep_shear: Array
-) -> Array:
-    """Return the influence matrix of a `ContactProblem` from its blocks, each (n, n) [mm/MPa]."""
-    n = normal_pressure.shape[0]
-    out = np.empty((2 * n, 2 * n))
-    out[:n, :n], out[:n, n:] = normal_pressure, normal_shear
-    out[n:, :n], out[n:, n:] = creep_pressure, creep_shear
-    return out
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,24 +130,6 @@ class ContactState:
     creepage: float
     steps: int
     settled: bool
-
-
-def gap_and_creep(problem: ContactProblem, state: ContactState) -> tuple[Array, Array]:
-    """Return gaps at nodes and creeps of intervals [mm]; the slip velocity is -V creep/length."""
-    made = problem.influence @ np.concatenate([state.pressure, state.shear])
-    n = problem.x.size
-    rigid = problem.creep_offset + state.creepage * problem.creep_length
-    return problem.clearance - state.approach + made[:n], rigid + made[n:]
-
-
-def gap(problem: ContactProblem, state: ContactState) -> Array:
-    """Return the gap at each node [mm]."""
-    return gap_and_creep(problem, state)[0]
-
-
-def creep(problem: ContactProblem, state: ContactState) -> Array:
-    """Return the creep of each interval [mm]."""
-    return gap_and_creep(problem, state)[1]
 
 
 def shear_signs(states: States) -> Array:

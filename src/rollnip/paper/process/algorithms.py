@@ -20,9 +20,6 @@ from rollnip.contact import (
     Safeguarded,
     State,
     States,
-    creep,
-    gap,
-    influence_of,
 )
 from rollnip.contact.coupled import solve_states
 from rollnip.contact.problem import Array, Mask, shear_signs
@@ -50,11 +47,11 @@ def with_pressure(problem: ContactProblem, pressure: Array) -> ContactProblem:
     return replace(
         problem,
         clearance=-pressure,
-        influence=influence_of(
-            normal_pressure=np.eye(pressure.size),
-            normal_shear=np.zeros((pressure.size, pressure.size)),
-            creep_pressure=problem.creep_pressure,
-            creep_shear=problem.creep_shear,
+        influence=np.block(
+            [
+                [np.eye(pressure.size), np.zeros((pressure.size, pressure.size))],
+                [problem.creep_pressure, problem.creep_shear],
+            ]
         ),
         control=Control(None, 0.0, control.traction, control.creepage),
     )
@@ -181,7 +178,7 @@ def _overlap(problem: ContactProblem, solution: ContactState) -> Mask:
     """Free nodes that overlap."""
     scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
     free = solution.states == State.FREE
-    return np.asarray(free & (gap(problem, solution) < -_ROUNDING * scale))
+    return np.asarray(free & (problem.gap_and_creep(solution)[0] < -_ROUNDING * scale))
 
 
 def _over_bound(problem: ContactProblem, solution: ContactState) -> States:
@@ -197,7 +194,7 @@ def _over_bound(problem: ContactProblem, solution: ContactState) -> States:
 def _wrong_way(problem: ContactProblem, solution: ContactState) -> States:
     """Let slipping nodes stick where the slip would go with the shear that resists it."""
     out = solution.states.copy()
-    rate = creep(problem, solution) * shear_signs(out)
+    rate = problem.gap_and_creep(solution)[1] * shear_signs(out)
     floor = -_ROUNDING * np.max(np.abs(problem.creep_length)) * max(abs(solution.creepage), 1e-6)
     out[(shear_signs(out) != 0.0) & (rate < floor)] = State.STICK
     return out

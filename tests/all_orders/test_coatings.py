@@ -35,8 +35,8 @@ def test_their_zones_are_found_on_few_meshes(values, monkeypatch):
     """Zones as short as the coating is thick come and go with the correction of finite strain."""
     sizes, solve = [], end_search.solve_with_zones
 
-    def counted(contact, state, shape):
-        found, *rest = solve(contact, state, shape)
+    def counted(state, shape):
+        found, *rest = solve(state, shape)
         sizes.append(found.mesh.inner.size)
         return found, *rest
 

@@ -72,7 +72,7 @@ def check_nodes(case):
     nip, contact = case.nip, contact_of(case)
     final = refined(contact, 1.0, SIZES)
     *_, rough = by_nodes(contact, half_width_guess(nip, contact.kernels), SIZES[:3])
-    fine = finer_by_nodes(contact, rough)
+    fine = finer_by_nodes(rough)
     if not (stands(final) and rough.settled and fine.settled):
         return False
     assert not fine.has_free_ends

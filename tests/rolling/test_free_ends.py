@@ -87,7 +87,7 @@ def attempt(wheels):
     """Free ends from a layout that is made up."""
     contact = RollingContact(wheels, LINEAR, pair_kernels(wheels, "linear"))
     (before,) = by_nodes(contact, half_width_guess(wheels, contact.kernels), (16,))
-    return lambda layout: with_free_ends(contact, layout, before, 0.1)
+    return lambda layout: with_free_ends(before, layout, 0.1)
 
 
 @pytest.mark.parametrize("off", [0.8, 1.0, 1.2])

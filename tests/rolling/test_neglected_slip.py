@@ -9,8 +9,7 @@ import rollnip as rn
 from rollnip.contact import Layout, State, elements_of_zones
 from rollnip.rolling import zone_search
 from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, overlooked_states
-from rollnip.rolling.search_state import SearchState
-from rollnip.rolling.zone_solver import crowding_for, solve_with_zones
+from rollnip.rolling.zone_solver import SearchState, crowding_for, solve_with_zones
 
 # Its surfaces are so unlike that tractions turn beside the edges.
 TURNING = rn.Nip(
@@ -89,17 +88,17 @@ def test_misplaced_ends_change_the_creepage_as_claimed():
     model = rn.Model(geometry="linear", tolerance=1e-4)
     final = rn.solve(nip, model).final
     assert final.figures.nip_width > 20.0 * thickness
-    contact, layout = final.contact, Layout.of(final.zones, nip.friction)
-    crowding = crowding_for(contact, layout)
+    layout = Layout.of(final.zones, nip.friction)
+    crowding = crowding_for(final.contact, layout)
     shape = elements_of_zones(layout.breaks, 200, crowding), crowding
     for _ in range(4):
-        placed, layout = solve_with_zones(contact, SearchState(layout, final, 0.0, 0.0), shape)
+        placed, layout = solve_with_zones(SearchState(layout, final, 0.0, 0.0), shape)
     ratios = []
     for number, place in enumerate(layout.breaks):
         breaks = layout.breaks.copy()
         breaks[number] = place + 0.1 * thickness
         moved = Layout(breaks, layout.states)
-        found, proposed = solve_with_zones(contact, SearchState(moved, final, 0.0, 0.0), shape)
+        found, proposed = solve_with_zones(SearchState(moved, final, 0.0, 0.0), shape)
         change = abs(found.figures.creepage - placed.figures.creepage)
         ratios.append(change / creepage_by_ends(nip, moved, proposed))
     assert max(ratios) < 1.2

@@ -13,45 +13,42 @@ from rollnip.influence import KernelCache
 from rollnip.rolling import RollingContact, half_width_guess, pair_kernels
 from rollnip.rolling.placing import place_ends
 from rollnip.rolling.refinement import SIZES, by_nodes
-from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_solver import SearchState
 
 FINITE = rn.Model(geometry="second")
 
 
 @pytest.fixture
-def placing(cases):
+def start(cases):
     nip = cases["II driven, curved"][0]
     contact = RollingContact(nip, FINITE, pair_kernels(nip, "second"))
     width = half_width_guess(nip, contact.kernels)
     contact = with_second_order(contact, width, KernelCache())
     (found,) = by_nodes(contact, width, SIZES[:1])
-    return contact, SearchState(Layout.of(found.zones, nip.friction), found)
+    return SearchState(Layout.of(found.zones, nip.friction), found)
 
 
-def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
+def test_each_size_of_mesh_has_a_second_order_of_its_own(start):
     """However little it moved on the size before: that was the one of a coarser mesh."""
-    contact, start = placing
-    coarse = place_ends(contact, start, 26, zones_known=False)
+    coarse = place_ends(start, 26, zones_known=False)
     still = replace(coarse, change=1e-3, to_come=1e-6)
-    fine = place_ends(contact, still, 40, zones_known=True)
+    fine = place_ends(still, 40, zones_known=True)
     assert fine.solution.mesh.kernels.held is not coarse.solution.mesh.kernels.held
     assert fine.change != still.change
 
 
-def test_a_second_order_that_moves_as_much_as_before_is_not_still(placing):
-    contact, start = placing
-    stand = place_ends(contact, start, 26, zones_known=False)
-    again = replace(stand, change=0.0, to_come=inf).renewed(contact)
+def test_a_second_order_that_moves_as_much_as_before_is_not_still(start):
+    stand = place_ends(start, 26, zones_known=False)
+    again = replace(stand, change=0.0, to_come=inf).renewed()
     assert again.change > 0.0
     assert again.to_come == inf
 
 
-def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
-    contact, start = placing
-    stand = place_ends(contact, start, 26, zones_known=False)
-    once = replace(stand, change=inf, to_come=inf).renewed(contact)
+def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(start):
+    stand = place_ends(start, 26, zones_known=False)
+    once = replace(stand, change=inf, to_come=inf).renewed()
     assert once.to_come == inf  # one change tells nothing
-    twice = replace(stand, change=4.0 * once.change, to_come=inf).renewed(contact)
+    twice = replace(stand, change=4.0 * once.change, to_come=inf).renewed()
     assert twice.to_come == pytest.approx(once.change / 3.0)
 
 

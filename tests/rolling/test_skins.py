@@ -9,8 +9,7 @@ import rollnip as rn
 from rollnip.contact import Layout
 from rollnip.paper import figure_4
 from rollnip.rolling.claimed_errors import claims
-from rollnip.rolling.search_state import SearchState
-from rollnip.rolling.zone_solver import solve_with_zones
+from rollnip.rolling.zone_solver import SearchState, solve_with_zones
 
 # Bends beside an edge at finite strain over those of linear displacements, which no elements
 # disturb: 0.91 to 1.08 on 12 skins. Forces at the columns of elements made 1.8 to 2.3 of them.
@@ -93,7 +92,7 @@ def test_a_peak_at_a_misplaced_edge_is_no_peak(nip, friction):
     narrow = SearchState(Layout(breaks, layout.states), right)
     # Rounding decides whether other zones are called for: a node of a short one hardly sticks.
     shape = np.array(right.mesh.fine.elements), right.mesh.fine.crowding
-    found, _ = solve_with_zones(right.contact, narrow, shape)
+    found, _ = solve_with_zones(narrow, shape)
     false = replace(found, error=right.error)
     pressure = false.state.pressure
     assert pressure[1] > pressure[2]

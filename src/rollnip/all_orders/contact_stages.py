@@ -43,7 +43,7 @@ from rollnip.rolling.refinement import (
     refine,
 )
 from rollnip.rolling.rolling_contact import RollingContact
-from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_solver import SearchState
 
 # Violation of the contact conditions, or change of the correction, below which the iteration may
 # end: over the tolerance or, if that is larger, over the violation on account of the cut-off, which
@@ -115,10 +115,11 @@ def first_contact(
                 before = located.with_correction_of(coarse.holding(held))
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = place_ends(before.contact, start, _COARSE_ELEMENTS, zones_known=False)
+                found = place_ends(start, _COARSE_ELEMENTS, zones_known=False)
                 if found is not None:
                     return found.solution, ContactStage.COARSE
-    refined = free_ends_from_nodes(contact, located) if located.settled else None
+    known = replace(located, contact=contact)  # to be solved with its own tolerance
+    refined = free_ends_from_nodes(known) if located.settled else None
     if is_verified(refined):
         return refined, ContactStage.REFINED
     return located, ContactStage.COARSE
@@ -198,10 +199,10 @@ def _at_better_stage(
         return found, ContactStage.REFINED if found.has_free_ends else ContactStage.FINE
     ready: MeshSolution | None = None
     if stage is ContactStage.FINE:
-        ready = free_ends_from_nodes(latest.contact, latest, ENOUGH_FOR_ZONES + 1)
+        ready = free_ends_from_nodes(latest, ENOUGH_FOR_ZONES + 1)
     if ready is not None and ready.error_ratio <= 1.0:
         return ready, ContactStage.REFINED
-    finer = finer_by_nodes(latest.contact, latest)
+    finer = finer_by_nodes(latest)
     if finer is None and ready is not None:
         return ready, ContactStage.REFINED  # its errors stay too large, and are reported
     return finer or replace(latest, settled=False), ContactStage.FINE
@@ -223,7 +224,7 @@ def _with_free_ends(latest: MeshSolution) -> MeshSolution | None:
     layout = Layout.of(latest.zones, latest.nip.friction)
     if layout is None:
         return None
-    found = with_free_ends(latest.contact, layout, latest, _COARSE_TOLERANCE)
+    found = with_free_ends(latest, layout, _COARSE_TOLERANCE)
     return found if is_verified(found) else None
 
 
@@ -266,7 +267,6 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
         is_crowded = not grips_skin(contact.nip) and min(map(min, latest.mesh.fine.crowding)) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = place_ends(
-                contact,
                 search,
                 _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
                 zones_known=True,

@@ -44,7 +44,7 @@ def contact_nearby(
         return None
     contact = contact.holding(held)
     before = replace(near.with_correction_of(contact), steps=0)
-    found = with_free_ends(contact, layout, before, NEAR_ENOUGH)
+    found = with_free_ends(before, layout, NEAR_ENOUGH)
     return found if is_verified(found) else None
 
 

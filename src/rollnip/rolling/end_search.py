@@ -19,8 +19,8 @@ from rollnip.rolling.changes import LEAST_SIZE
 from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.neglected_slip import creepage_by_ends
 from rollnip.rolling.rolling_contact import RollingContact
-from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.zone_solver import (
+    SearchState,
     Shape,
     crowding_for,
     crowds_more,
@@ -35,7 +35,6 @@ class EndSearch:
 
     Attributes
     ----------
-    contact : to solve.
     count : rough number of elements.
     state : state of the search, with the zones of the last mesh, or of the next one.
     least_misplacement : the smallest so far, over the width.
@@ -52,7 +51,6 @@ class EndSearch:
     misplacement : distance of the ends from the proposed places, over the width.
     """
 
-    contact: RollingContact
     count: int
     state: SearchState
     least_misplacement: float
@@ -69,11 +67,15 @@ class EndSearch:
     misplacement: float = field(init=False)
 
     @classmethod
-    def of(cls, contact: RollingContact, start: SearchState, count: int) -> EndSearch:
+    def of(cls, start: SearchState, count: int) -> EndSearch:
         """Begin a search with the zones of ``start``."""
         secants = Secants(start.misplacement * start.layout.width, start.jacobian)
-        state = start.renewed(contact)
-        return cls(contact, count, state, start.misplacement, secants, start.end_sensitivity)
+        return cls(count, start.renewed(), start.misplacement, secants, start.end_sensitivity)
+
+    @property
+    def contact(self) -> RollingContact:
+        """The contact to solve."""
+        return self.state.contact
 
     @property
     def layout(self) -> Layout:
@@ -81,14 +83,9 @@ class EndSearch:
         return self.state.layout
 
     @property
-    def second_order_settled(self) -> bool:
-        """Whether the second order will no longer change."""
-        return self.contact.kernels.is_fixed or self.state.second_order_settled
-
-    @property
     def is_near(self) -> bool:
         """Whether the ends are near enough for a solution to show what slips."""
-        return self.misplacement < NEAR_ENOUGH and self.second_order_settled
+        return self.misplacement < NEAR_ENOUGH and self.state.second_order_settled
 
     @property
     def end_error(self) -> Figures | None:
@@ -103,7 +100,7 @@ class EndSearch:
         """Solve on the next mesh, and find where its solution puts the ends."""
         self.meshes += 1
         layout, shape = self.layout, self._choose_shape()
-        self.latest, self.proposed = solve_with_zones(self.contact, self.state, shape)
+        self.latest, self.proposed = solve_with_zones(self.state, shape)
         self.vanishing = self.secants.vanishing(layout, self.proposed)
         self.misplacement = self.proposed.distance(layout)
         self.least_misplacement = min(self.least_misplacement, self.misplacement)
@@ -111,7 +108,7 @@ class EndSearch:
             layout,
             self.proposed,
             singular(self.latest, layout),
-            only_ends_move=self.latest.settled and self.second_order_settled,
+            only_ends_move=self.latest.settled and self.state.second_order_settled,
         )
         self._learn_sensitivity()
 
@@ -161,14 +158,14 @@ class EndSearch:
         """Go on with other zones."""
         self.tried.add(other.layout.key)
         self.secants = Secants(self.least_misplacement * self.layout.width)
-        self.state, self.shape = other.renewed(self.contact), None
+        self.state, self.shape = other.renewed(), None
         self.end_sensitivity, self.meshes = None, 0
 
     def move_ends(self) -> None:
         """Go on with the same zones, and their ends at the next places."""
         state = self.state
         moved = SearchState(self.next_layout, self.latest, state.change, state.to_come)
-        self.state = moved.renewed(self.contact)
+        self.state = moved.renewed()
 
     def result(self) -> SearchState:
         """Return the state of the search with the ends at their next places."""

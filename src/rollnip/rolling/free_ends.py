@@ -25,9 +25,8 @@ from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import negligible_slip
 from rollnip.rolling.placing import place_ends
-from rollnip.rolling.rolling_contact import RollingContact
-from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.secondary import secondary_figures
+from rollnip.rolling.zone_solver import SearchState
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # more of them on the first mesh for each zone
@@ -45,18 +44,14 @@ def is_verified(found: MeshSolution | None) -> TypeGuard[MeshSolution]:
 
 
 def with_free_ends(
-    contact: RollingContact,
-    layout: Layout,
-    before: MeshSolution,
-    misplacement: float,
-    fewest: int = 0,
+    before: MeshSolution, layout: Layout, misplacement: float, fewest: int = 0
 ) -> MeshSolution | None:
     """Return the solution with free ends, on meshes refined until its error meets the tolerance.
 
     Parameters
     ----------
-    layout : the zones to start with, and roughly where they are.
-    before : the solution that the layout comes from.
+    before : a solution of the contact, to start from.
+    layout : its zones, and roughly where they are.
     misplacement : largest expected error of the ends, over the width of the contact.
     fewest : least number of elements of the first mesh: that of the mesh which the zones come from.
         Above `ENOUGH_FOR_ZONES` the zones are taken as known. 0: no lower bound.
@@ -70,16 +65,14 @@ def with_free_ends(
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
-        return _refined(contact, start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
+        return _refined(start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 
 
-def _refined(
-    contact: RollingContact, state: SearchState, count: int, *, zones_known: bool
-) -> MeshSolution | None:
+def _refined(state: SearchState, count: int, *, zones_known: bool) -> MeshSolution | None:
     """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
-    tolerance = contact.tolerance
+    tolerance, friction = state.contact.tolerance, state.contact.nip.friction
     history: list[RefinementLevel] = []
     enough = ENOUGH_FOR_ZONES * max(1e-3 / tolerance, 1.0) ** (1.0 / 3.0)
     most = _MOST_TIMES_FIRST * max(enough, count)
@@ -88,7 +81,6 @@ def _refined(
     while count <= most:
         settles_figures = bool(history)  # from the second size on the error may meet the tolerance
         placed = place_ends(
-            contact,
             state,
             count,
             zones_known=zones_known or settles_figures,
@@ -101,7 +93,7 @@ def _refined(
         state, latest = placed, placed.solution
         count = elements_without_crowding(latest)
         roughness = _roughness(latest, roughness)
-        if roughness > 1.0 and not history and contact.nip.friction == 0.0:
+        if roughness > 1.0 and not history and friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
             count, zones_known = _next_count(count, roughness, tolerance), True
             continue

@@ -37,14 +37,13 @@ def holding_second_order(contact: RollingContact, before: MeshSolution | None) -
     return replace(kernels, held=before.mesh.second_fields(before.state))
 
 
-def own_second_order(
-    contact: RollingContact, latest: MeshSolution
-) -> tuple[Mesh, LaggedTerms, float]:
+def own_second_order(latest: MeshSolution) -> tuple[Mesh, LaggedTerms, float]:
     """Return the mesh of a solution that holds the second order of its own tractions.
 
     With it come the lagged terms that follow, and their change from those of the solution,
     see `LaggedTerms.change_from`.
     """
+    contact = latest.contact
     own = replace(contact.kernels, held=latest.mesh.second_fields(latest.state))
     mesh = latest.mesh.holding(own)
     lagged = lagged_terms(contact, mesh, latest.state)
@@ -124,7 +123,7 @@ def with_residual(latest: MeshSolution) -> MeshSolution:
     tractions. The change of the lagged terms that this makes counts for `geometry_change`.
     """
     if not latest.contact.kernels.is_fixed:
-        mesh, _, change = own_second_order(latest.contact, latest)
+        mesh, _, change = own_second_order(latest)
         change = largest(change, latest.geometry_change)
         latest = replace(latest, mesh=mesh, geometry_change=change)
     left = residual(latest, fields_between(latest), tolerable_slip(latest))

@@ -19,9 +19,8 @@ from rollnip.rolling.end_search import EndSearch
 from rollnip.rolling.lengths import boundary_layer, thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.rolling_contact import RollingContact
-from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.zone_search import changed_states, other_zones
-from rollnip.rolling.zone_solver import are_too_many, crowding_for, crowds_more
+from rollnip.rolling.zone_solver import SearchState, are_too_many, crowding_for, crowds_more
 
 # Most meshes of one size with the same zones, at a tolerance of 1e-3; one more for each further
 # digit. Of 708 sizes of 200 random nips one needed more; those that failed would have taken 10 to
@@ -30,7 +29,6 @@ MOST_MESHES = 8
 
 
 def place_ends(
-    contact: RollingContact,
     start: SearchState,
     count: int,
     *,
@@ -45,7 +43,7 @@ def place_ends(
 
     Parameters
     ----------
-    start : state of the search, with the zones to start from.
+    start : state of the search, with the zones and a solution to start from.
     count : rough number of elements.
     zones_known : whether the zones are known to be right.
     settles_figures : whether to place the ends so exactly that the figures no longer change with
@@ -58,11 +56,11 @@ def place_ends(
     None where no such solution is found.
     """
     # The second order held so far is from a coarser mesh: each size evaluates its own.
-    search = EndSearch.of(contact, replace(start, to_come=inf), count)
+    search = EndSearch.of(replace(start, to_come=inf), count)
     if follows_correction:
         fine = start.solution.mesh.fine
         search.shape = np.array(fine.elements), fine.crowding
-    most_meshes = _most_meshes(contact, start.layout)
+    most_meshes = _most_meshes(start.contact, start.layout)
     while search.meshes < most_meshes and _can_be_placed(search.layout):
         search.solve_mesh()
         if follows_correction and _have_followed(search):
@@ -116,7 +114,7 @@ def _is_placed_by(search: EndSearch, *, zones_known: bool, same_zones: bool) -> 
     by_figures = same_zones and contact.nip.friction > 0.0 and not contact.has_finite_strain
     return (
         _are_ends_placed(search, zones_known=zones_known, by_figures=by_figures)
-        and (search.proposed.is_proper and latest.settled and search.second_order_settled)
+        and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)
         and not (by_figures and _figures_change(search))
         and not (_is_false_at_edge(latest) or (same_zones and _exceeds_bound(latest)))
         and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)

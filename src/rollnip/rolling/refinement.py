@@ -65,7 +65,7 @@ def refine(
     for latest in by_nodes(contact, half_width, sizes):
         if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
             return latest
-        found = free_ends_from_nodes(contact, latest) if latest.settled else None
+        found = free_ends_from_nodes(latest) if latest.settled else None
         if is_verified(found):
             return found
         best = found or best
@@ -75,19 +75,17 @@ def refine(
     return with_residual(best)
 
 
-def free_ends_from_nodes(
-    contact: RollingContact, located: MeshSolution, most: int | None = None
-) -> MeshSolution | None:
+def free_ends_from_nodes(located: MeshSolution, most: int | None = None) -> MeshSolution | None:
     """Return the solution with free ends, starting from the zones of one found node by node.
 
     Its first mesh has as many elements as that one, or ``most`` if these are fewer. Nodes that
     crowd at the ends of short zones add to them.
     """
-    layout, count = Layout.of(located.zones, contact.nip.friction), located.mesh.inner.size
+    layout, count = Layout.of(located.zones, located.nip.friction), located.mesh.inner.size
     if layout is None:
         return None
     fewest = count if most is None else min(count, most)
-    return with_free_ends(contact, layout, located, 1.0 / count, fewest)
+    return with_free_ends(located, layout, 1.0 / count, fewest)
 
 
 def by_nodes(
@@ -111,12 +109,12 @@ def by_nodes(
         before = found if found.settled else before
 
 
-def finer_by_nodes(contact: RollingContact, before: MeshSolution) -> MeshSolution | None:
+def finer_by_nodes(before: MeshSolution) -> MeshSolution | None:
     """Return the solution node by node on the next finer mesh; None if there is no finer one."""
     finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
-    found, settled = _solve_at_size(contact, 0.0, finer[0], before)
+    found, settled = _solve_at_size(before.contact, 0.0, finer[0], before)
     return settled or found
 
 

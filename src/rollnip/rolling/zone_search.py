@@ -27,7 +27,7 @@ from rollnip.rolling.neglected_slip import (
     negligible_slip,
     overlooked_states,
 )
-from rollnip.rolling.search_state import SearchState
+from rollnip.rolling.zone_solver import SearchState
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from math import ceil
+from dataclasses import dataclass, replace
+from math import ceil, inf
 
 import numpy as np
 
 from rollnip.contact import (
+    NEAR_ENOUGH,
     Crowding,
     GivenStates,
     Layout,
@@ -20,12 +21,11 @@ from rollnip.contact import (
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
 from rollnip.contact.problem import Array, Indices
 from rollnip.influence import has_stiff_skin
-from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.iterations import solve_on_mesh
+from rollnip.rolling.changes import NEGLIGIBLE, to_come_after
+from rollnip.rolling.iterations import own_second_order, solve_on_mesh
 from rollnip.rolling.lengths import boundary_layer, dundurs, thinnest_covering
-from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.mesh_solution import Figures, MeshSolution
 from rollnip.rolling.rolling_contact import RollingContact
-from rollnip.rolling.search_state import SearchState
 from rollnip.rolling.surfaces import Mesh, PairKernels
 
 # Poisson ratio from which a thin covering on a rigid core moves as the second derivative of the
@@ -37,6 +37,56 @@ _MORE_UNDER_SKIN = 100.0  # times as exactly lagged terms settle under a stiff s
 
 Shape = tuple[Indices, Crowding]
 """Number of elements in each zone, and how strongly their nodes crowd (`cosine_nodes`)."""
+
+
+@dataclass(frozen=True, slots=True)
+class SearchState:
+    """State of the search for zones and their ends.
+
+    Attributes
+    ----------
+    layout : the zones to solve with next.
+    solution : the last one.
+    change : of the lagged terms when the second order of "second" was last evaluated, over
+        the tolerance.
+    to_come : sum of the changes that further evaluations would make, over the tolerance.
+    misplacement : largest error of the ends of zones, over the width of the contact.
+    end_error : change of each figure that this misplacement may cause; None: not known.
+    end_sensitivity : change of each figure per misplacement of the ends, over the width; None: not
+        known.
+    jacobian : of the moves that ends propose, see `Secants`; None: not known.
+    """
+
+    layout: Layout
+    solution: MeshSolution
+    change: float = inf
+    to_come: float = inf
+    misplacement: float = NEAR_ENOUGH
+    end_error: Figures | None = None
+    end_sensitivity: Figures | None = None
+    jacobian: Array | None = None
+
+    @property
+    def second_order_settled(self) -> bool:
+        """Whether further evaluations of the second order would change it negligibly, or not."""
+        return self.contact.kernels.is_fixed or self.to_come <= 1.0
+
+    @property
+    def contact(self) -> RollingContact:
+        """The contact to solve: that of the last solution."""
+        return self.solution.contact
+
+    def renewed(self) -> SearchState:
+        """Return the state with the second order evaluated from its last solution.
+
+        It is unchanged if the second order has converged, or is fixed.
+        """
+        if self.second_order_settled:
+            return self
+        mesh, lagged, change = own_second_order(self.solution)
+        change /= self.contact.tolerance
+        solution = replace(self.solution, mesh=mesh, lagged=lagged)
+        return SearchState(self.layout, solution, change, to_come_after(change, self.change))
 
 
 def crowding_for(contact: RollingContact, layout: Layout, coarsest: float = 0.0) -> Crowding:
@@ -82,11 +132,10 @@ def pieces_of(contact: RollingContact, layout: Layout) -> int:
     return max(min(wanted, _MOST_PIECES), PIECES_PER_ELEMENT)
 
 
-def solve_with_zones(
-    contact: RollingContact, state: SearchState, shape: Shape
-) -> tuple[MeshSolution, Layout]:
+def solve_with_zones(state: SearchState, shape: Shape) -> tuple[MeshSolution, Layout]:
     """Return the solution on one mesh, and the zones with the ends that it proposes."""
-    nip, layout, before = contact.nip, state.layout, state.solution
+    contact, layout, before = state.contact, state.layout, state.solution
+    nip = contact.nip
     has_skin = has_stiff_skin((nip.upper, nip.lower))
     mesh = mesh_at_ends(contact, layout, shape, before.mesh.kernels)
     start = layout.states_on(mesh.inner), before.lagged.carried(before.mesh, mesh), before.steps

@@ -36,7 +36,7 @@ def _errors(number, geometry=None):
         return None
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
-    search = MembraneSearch(case.nip, model, solution.final.contact.kernels)
+    search = MembraneSearch(solution.final.contact.with_model(model))
     zones, count = refined.iterate.zones, round(2.2 * solution.solver.elements)
     try:
         fine = search.settle_zones(zones, count, refined.iterate, END_TOLERANCE)
@@ -44,7 +44,7 @@ def _errors(number, geometry=None):
         return None
     if not fine.settled:
         return None
-    (truth,) = MembraneFormulation(case.nip).figures(fine, model.geometry)
+    (truth,) = MembraneFormulation(solution.final.contact).figures(fine)
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale
@@ -211,7 +211,7 @@ def _errors_below(number):
     # a twentieth of the tolerance; not where refinement stops, but matrices are shared
     iterate, model = solution.refined.iterate, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
-    search = PlateSearch(case.nip, model, solution.final.contact.kernels)
+    search = PlateSearch(solution.final.contact.with_model(model))
     fine = search.settle_zones(iterate.zones, count, iterate, END_TOLERANCE)
     if not fine.settled:
         return None

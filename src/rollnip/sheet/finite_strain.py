@@ -29,8 +29,7 @@ from rollnip.all_orders.iteration import (
     with_skin_tolerance,
 )
 from rollnip.finite import NoEquilibriumError
-from rollnip.model import Model
-from rollnip.rolling import PairKernels, stretch_excess
+from rollnip.rolling import RollingContact, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
@@ -43,8 +42,8 @@ _COARSE = 20  # number of elements while the corrections still change
 
 
 def solve_by_iteration(
-    formulation: Formulation[IterateT], model: Model, kernels: PairKernels, half_width: float
-) -> tuple[PairKernels, Refined[IterateT]] | None:
+    formulation: Formulation[IterateT], half_width: float
+) -> tuple[RollingContact, Refined[IterateT]] | None:
     """Solve the contact with a sheet together with the corrections of both rollers, by iteration.
 
     The iteration starts on a coarse mesh, from the linear displacements, until the remaining
@@ -54,21 +53,22 @@ def solve_by_iteration(
 
     Returns
     -------
-    The influence functions with the last corrections and the solution with them; None where there
-    is no equilibrium, or zones or corrections do not converge.
+    The contact with the last corrections and the solution with them; None where there is no
+    equilibrium, or zones or corrections do not converge.
     """
-    model = with_skin_tolerance(formulation.nip, model)
-    coarse = coarse_model(model)
+    contact = formulation.contact
+    contact = contact.with_model(with_skin_tolerance(contact.nip, contact.model))
+    formulation = formulation.of(contact)
+    coarse = _coarse(formulation)
     try:
-        iterate = _begun(formulation, coarse, kernels, half_width, allowed=coarse.tolerance)
+        iterate = _begun(coarse, half_width, allowed=coarse.contact.tolerance)
     except np.linalg.LinAlgError:
         return None
     for share in CUT_FACTORS:
-        orders = PairCorrection.of(
-            formulation.nip, kernels, half_width, _largest_strain(iterate), share
-        )
+        strain = _largest_strain(iterate)
+        orders = PairCorrection.of(contact.nip, contact.kernels, half_width, strain, share)
         try:
-            found = _iterate_until_settled(kernels, _Contact(formulation, model, iterate), orders)
+            found = _iterate_until_settled(formulation, _Progress(iterate), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -77,19 +77,14 @@ def solve_by_iteration(
 
 
 def _begun(
-    formulation: Formulation[IterateT],
-    model: Model,
-    kernels: PairKernels,
-    half_width: float,
-    *,
-    allowed: float = 0.0,
+    formulation: Formulation[IterateT], half_width: float, *, allowed: float = 0.0
 ) -> IterateT:
     """Return a solution on a coarse mesh, without a previous one.
 
     ``allowed``: error of the zone ends, over the width, up to which the solution in linear geometry
     will do: first corrections need no better one.
     """
-    search, count = formulation.search(model, kernels), _elements(formulation, half_width)
+    search, count = formulation.search(), _elements(formulation, half_width)
     iterate = search.start(half_width, count)
     if iterate.misplacement <= allowed:
         return iterate
@@ -101,94 +96,96 @@ def _elements(formulation: Formulation[IterateT], half_width: float, size: float
 
 
 @dataclass
-class _Contact(Generic[IterateT]):
-    """A contact that is solved repeatedly.
+class _Progress(Generic[IterateT]):
+    """How far a contact is solved whose corrections change.
 
     Attributes
     ----------
-    formulation, model : formulation of the sheet, and the model with the tolerance of the refined
-        solution.
     iterate : the last solution.
     refined : the refined solution; None while the mesh is coarse.
     restarts : how often the search was restarted.
     """
 
-    formulation: Formulation[IterateT]
-    model: Model
     iterate: IterateT
     refined: Refined[IterateT] | None = None
     restarts: int = 0
 
-    def solve(self, kernels: PairKernels, start: IterateT, *, refine: bool) -> None:
+    def solve(self, formulation: Formulation[IterateT], start: IterateT, *, refine: bool) -> None:
         """Solve with other corrections.
 
         Where zones do not converge, the search is restarted.
 
         Parameters
         ----------
-        kernels : influence functions with the corrections.
+        formulation : with the corrections.
         start : the last solution, with lagged terms from about these corrections.
         refine : on finer and finer meshes.
         """
         if refine:
-            self._refine(kernels, start)
+            self._refine(formulation, start)
             return
         if self.refined is None:
-            model, size, placed = coarse_model(self.model), _COARSE, FIRST_END_TOLERANCE
+            size, placed, solved = _COARSE, FIRST_END_TOLERANCE, _coarse(formulation)
         else:
-            model, size, placed = self.model, self.refined.count, END_TOLERANCE
-        count = _elements(self.formulation, 0.5 * start.zones.width, size)
-        search = self.formulation.search(model, kernels)
-        found = search.settle_zones(start.zones, count, start, placed)
+            size, placed, solved = self.refined.count, END_TOLERANCE, formulation
+        count = _elements(formulation, 0.5 * start.zones.width, size)
+        found = solved.search().settle_zones(start.zones, count, start, placed)
         if not found.settled and self.restarts < _MOST_RESTARTS:
             trailing, leading = _edges(self.iterate)
-            found = _begun(self.formulation, model, kernels, 0.5 * (leading - trailing))
+            found = _begun(solved, 0.5 * (leading - trailing))
             self.restarts += 1
             if self.refined is not None:
-                self._refine(kernels, found)
+                self._refine(formulation, found)
                 return
         self.iterate = found
 
-    def _refine(self, kernels: PairKernels, before: IterateT) -> None:
-        half_width = 0.5 * before.zones.width
-        self.refined = refine(self.formulation, self.model, kernels, half_width, before)
+    def _refine(self, formulation: Formulation[IterateT], before: IterateT) -> None:
+        self.refined = refine(formulation, 0.5 * before.zones.width, before)
         self.iterate = self.refined.iterate
 
 
+def _coarse(formulation: Formulation[IterateT]) -> Formulation[IterateT]:
+    """Return the formulation with the tolerance of a coarse contact."""
+    contact = formulation.contact
+    return formulation.of(contact.with_model(coarse_model(contact.model)))
+
+
 def _iterate_until_settled(
-    kernels: PairKernels, contact: _Contact[IterateT], orders: PairCorrection
-) -> tuple[PairKernels, Refined[IterateT]] | None:
+    formulation: Formulation[IterateT], solved: _Progress[IterateT], orders: PairCorrection
+) -> tuple[RollingContact, Refined[IterateT]] | None:
     """Iterate corrections and contact; see `solve_by_iteration`."""
-    formulation, tolerance, change = contact.formulation, contact.model.tolerance, inf
-    past = AndersonMixer(even_places(_edges(contact.iterate)))
-    least = BestSolution[tuple[PairKernels, Refined[IterateT], IterateT]]()
+    contact, change = formulation.contact, inf
+    past = AndersonMixer(even_places(_edges(solved.iterate)))
+    least = BestSolution[tuple[Formulation[IterateT], Refined[IterateT], IterateT]]()
     for _ in range(MOST_CORRECTIONS):
-        iterate, refined = contact.iterate, contact.refined
-        creepage = sum(iterate.state.creepages)
-        made, is_whole = orders.of_tractions(_sides(iterate), creepage, kernels.held)
-        smooth = replace(kernels, held=made)
-        own = formulation.with_corrections(iterate, smooth)
+        iterate, refined = solved.iterate, solved.refined
+        creepage, held = sum(iterate.state.creepages), formulation.contact.kernels.held
+        made, is_whole = orders.of_tractions(_sides(iterate), creepage, held)
+        smooth = formulation.of(contact.holding(made))
+        own = smooth.with_corrections(iterate)
         before, change = change, own.change
-        to_come = to_come_after(change, before) / tolerance
+        to_come = to_come_after(change, before) / contact.tolerance
         if refined is not None and change < SMALL_CHANGE and is_whole:
             missed = formulation.residual_with_terms_of(iterate, own)
-            found = on_last_mesh(formulation, refined, own, smooth, missed)
-            if least.may_stop((smooth, found, own), found.residual / tolerance, to_come):
+            found = on_last_mesh(smooth, refined, own, missed)
+            if least.may_stop((smooth, found, own), found.residual / contact.tolerance, to_come):
                 break
-        kernels = replace(kernels, held=past.mixed(kernels.held or NO_SECOND_ORDER, made))
-        near = min(to_come, change / tolerance)
+        mixed = past.mixed(held or NO_SECOND_ORDER, made)
+        formulation = formulation.of(contact.holding(mixed))
+        near = min(to_come, change / contact.tolerance)
         begins = refined is None and is_whole and near <= NEARLY_CONVERGED
         if begins:
             past = AndersonMixer(places_by_the_edges(_edges(iterate)))
-        contact.solve(kernels, own, refine=begins)
-        if not contact.iterate.settled and contact.refined is not None:
+        solved.solve(formulation, own, refine=begins)
+        if not solved.iterate.settled and solved.refined is not None:
             break
     if least.found is None:
         return None
-    kernels, found, own = least.found
-    assert kernels.held is not None
-    uncut = formulation.with_corrections(own, replace(kernels, held=kernels.held.uncut))
-    return kernels, _with_cut(found, formulation.residual_with_terms_of(own, uncut))
+    smooth, found, own = least.found
+    held = smooth.contact.kernels.held
+    assert held is not None
+    uncut = smooth.of(contact.holding(held.uncut)).with_corrections(own)
+    return smooth.contact, _with_cut(found, formulation.residual_with_terms_of(own, uncut))
 
 
 def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:

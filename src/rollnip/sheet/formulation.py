@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, Self, TypeVar
 
-from rollnip.model import Geometry, Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels
+from rollnip.rolling import RollingContact
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import Pulls
@@ -20,7 +18,7 @@ FIRST_END_TOLERANCE, END_TOLERANCE = 0.5, 0.03
 
 
 class SheetZoneSearch(Protocol[IterateT]):
-    """A search for the zones of stick and slip in a nip with a sheet, for one model."""
+    """A search for the zones of stick and slip in a nip with a sheet."""
 
     def start(self, half_width: float, count: int) -> IterateT:
         """Return a first solution, in linear geometry, whose zones are approximately right."""
@@ -42,14 +40,18 @@ class SheetZoneSearch(Protocol[IterateT]):
 
 
 class Formulation(Protocol[IterateT]):
-    """A nip with a sheet in one formulation, as a membrane or as a plate."""
+    """The contact of a nip with a sheet in one formulation, as a membrane or as a plate."""
 
     @property
-    def nip(self) -> Nip:
-        """The nip."""
+    def contact(self) -> RollingContact:
+        """The contact to solve: nip, model and influence functions."""
         ...
 
-    def search(self, model: Model, kernels: PairKernels) -> SheetZoneSearch[IterateT]:
+    def of(self, contact: RollingContact) -> Self:
+        """Return the same formulation of another contact, as with other corrections."""
+        ...
+
+    def search(self) -> SheetZoneSearch[IterateT]:
         """Return the search for its zones."""
         ...
 
@@ -58,27 +60,31 @@ class Formulation(Protocol[IterateT]):
         """Length over which bending stiffness acts [mm]; inf for a membrane."""
         ...
 
-    def peak_tolerances(self, model: Model) -> tuple[float, ...]:
+    @property
+    def peak_tolerances(self) -> tuple[float, ...]:
         """Return the allowed relative error of the peak pressure on each side."""
         ...
 
-    def figures(self, iterate: IterateT, geometry: Geometry) -> tuple[SheetFigures, ...]:
+    def figures(self, iterate: IterateT) -> tuple[SheetFigures, ...]:
         """Return the figures, with width and pressure of the upper interface.
 
         Where the lower interface has a width and a pressure of its own, figures with those follow.
         """
         ...
 
-    def pulls(self, iterate: IterateT, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: IterateT) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         ...
 
-    def overlap(self, iterate: IterateT, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: IterateT) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
         ...
 
-    def with_corrections(self, iterate: IterateT, kernels: PairKernels) -> IterateT:
-        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
+    def with_corrections(self, iterate: IterateT) -> IterateT:
+        """Return a solution with lagged terms from the corrections of the contact.
+
+        It has a new ``change``.
+        """
         ...
 
     def residual_with_terms_of(self, iterate: IterateT, other: IterateT) -> float:

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, ContactState
-from rollnip.model import FINITE, Geometry, Model
-from rollnip.rolling import MeshSolution, PairKernels, RollingContact
+from rollnip.rolling import MeshSolution, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, estimated_errors, raised_by_power_errors
@@ -134,17 +133,12 @@ class Refined(Generic[T]):
 
 
 def refine(
-    formulation: Formulation[IterateT],
-    model: Model,
-    kernels: PairKernels,
-    half_width: float,
-    before: IterateT | None = None,
+    formulation: Formulation[IterateT], half_width: float, before: IterateT | None = None
 ) -> Refined[IterateT]:
     """Solve on finer and finer meshes until the estimated errors are within the tolerance.
 
     Parameters
     ----------
-    formulation, model, kernels : the problem, how it is solved, and its influence functions.
     half_width : approximate half-width of the contact [mm].
     before : a solution to start from; None: start in linear geometry.
 
@@ -153,7 +147,8 @@ def refine(
     numpy.linalg.LinAlgError
         where no mesh size has a solution.
     """
-    search, count = formulation.search(model, kernels), initial_elements(formulation, half_width)
+    contact = formulation.contact
+    search, count = formulation.search(), initial_elements(formulation, half_width)
     iterate = search.start(half_width, round(count)) if before is None else before
     history: list[SizeOfMesh] = []
     best: Refined[IterateT] | None = None
@@ -166,27 +161,27 @@ def refine(
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        here = _size_of(formulation, model.geometry, iterate, count)
-        errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
-        excess = _excess(formulation, model, here, errors)
+        here = _size_of(formulation, iterate, count)
+        errors = estimated_errors(contact.nip, iterate.problem.meshes, [*history, here])
+        excess = _excess(formulation, here, errors)
         if iterate.settled and history and excess > 1.0:
-            history = _with_same_zones(formulation, model, search, iterate, history, last_count)
-            errors = estimated_errors(formulation.nip, iterate.problem.meshes, [*history, here])
-            excess = _excess(formulation, model, here, errors)
+            history = _with_same_zones(formulation, search, iterate, history, last_count)
+            errors = estimated_errors(contact.nip, iterate.problem.meshes, [*history, here])
+            excess = _excess(formulation, here, errors)
         latest = Refined(iterate, here.figures, errors, violation(iterate), round(count))
         if iterate.settled:
             history.append(here)
             best, failures, last_count = latest, 0, round(count)
-            if excess <= 1.0 and latest.residual <= model.tolerance:
-                best = _with_outside_check(formulation, latest, kernels, model.geometry)
-                if best.residual <= model.tolerance:
+            if excess <= 1.0 and latest.residual <= contact.tolerance:
+                best = _with_outside_check(formulation, latest)
+                if best.residual <= contact.tolerance:
                     return best
         else:
             best, failures = best or latest, failures + 1
         count = _next_count(count, excess)
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return _with_outside_check(formulation, best, kernels, model.geometry)
+    return _with_outside_check(formulation, best)
 
 
 def initial_elements(
@@ -205,33 +200,26 @@ def _finite(iterate: IterateT) -> IterateT:
     return iterate
 
 
-def _size_of(
-    formulation: Formulation[IterateT], geometry: Geometry, iterate: IterateT, count: float
-) -> SizeOfMesh:
+def _size_of(formulation: Formulation[IterateT], iterate: IterateT, count: float) -> SizeOfMesh:
     """Return a solution in the form that the error estimates take."""
-    return SizeOfMesh(count, formulation.figures(iterate, geometry), iterate.zones)
+    return SizeOfMesh(count, formulation.figures(iterate), iterate.zones)
 
 
 def _excess(
-    formulation: Formulation[IterateT],
-    model: Model,
-    here: SizeOfMesh,
-    errors: tuple[SheetFigures, ...],
+    formulation: Formulation[IterateT], here: SizeOfMesh, errors: tuple[SheetFigures, ...]
 ) -> float:
     """Return the largest error over its allowed value, of the figures with a tolerance."""
-    most = 0.0
-    for figures, error, allowed in zip(
-        here.figures, errors, formulation.peak_tolerances(model), strict=True
-    ):
+    contact, most = formulation.contact, 0.0
+    allowances = formulation.peak_tolerances
+    for figures, error, allowed in zip(here.figures, errors, allowances, strict=True):
         values = error.values.copy()
-        values[_PEAK] *= model.tolerance / allowed
-        most = max(most, ratio(formulation.nip, figures, SheetFigures(values)))
-    return most / model.tolerance
+        values[_PEAK] *= contact.tolerance / allowed
+        most = max(most, ratio(contact.nip, figures, SheetFigures(values)))
+    return most / contact.tolerance
 
 
 def _with_same_zones(
     formulation: Formulation[IterateT],
-    model: Model,
     search: SheetZoneSearch[IterateT],
     iterate: IterateT,
     history: list[SizeOfMesh],
@@ -251,7 +239,7 @@ def _with_same_zones(
         return history
     if not (again.settled and again.zones.is_like(iterate.zones)):
         return history
-    return [_size_of(formulation, model.geometry, again, count)]
+    return [_size_of(formulation, again, count)]
 
 
 def _end_tolerance(count: float) -> float:
@@ -272,28 +260,25 @@ def _next_count(count: float, excess: float) -> float:
 
 
 def _with_outside_check(
-    formulation: Formulation[IterateT],
-    refined: Refined[IterateT],
-    kernels: PairKernels,
-    geometry: Geometry,
+    formulation: Formulation[IterateT], refined: Refined[IterateT]
 ) -> Refined[IterateT]:
     """Return a solution whose residual and errors include the check outside the contact."""
-    left = max(refined.residual, formulation.overlap(refined.iterate, kernels, geometry))
-    return with_power_errors(formulation, replace(refined, residual=left), geometry)
+    left = max(refined.residual, formulation.overlap(refined.iterate))
+    return with_power_errors(formulation, replace(refined, residual=left))
 
 
 def with_power_errors(
-    formulation: Formulation[IterateT], refined: Refined[IterateT], geometry: Geometry
+    formulation: Formulation[IterateT], refined: Refined[IterateT]
 ) -> Refined[IterateT]:
     """Return a solution whose errors include reversed slip and the mismatch of the torques.
 
     Slip along its own shear cannot be counted as a loss. Only in "second" and "finite" are the
     moments of the tractions as exact as the torques.
     """
-    iterate = refined.iterate
-    works = slip_works(iterate, geometry, formulation.pulls(iterate, geometry))
+    iterate, geometry = refined.iterate, formulation.contact.geometry
+    works = slip_works(iterate, geometry, formulation.pulls(iterate))
     left = np.zeros(2)
-    if geometry in FINITE:
+    if formulation.contact.has_finite_strain:
         left = torque_mismatch(iterate, geometry, refined.figures.powers)
     slip = left if geometry == "finite" else np.zeros(2)
     errors = tuple(raised_by_power_errors(one, works, left, slip) for one in refined.errors_by_side)
@@ -304,14 +289,13 @@ def on_last_mesh(
     formulation: Formulation[IterateT],
     refined: Refined[IterateT],
     iterate: IterateT,
-    kernels: PairKernels,
     left: float,
 ) -> Refined[IterateT]:
     """Return a refined solution at finite strain with other lagged terms on its last mesh.
 
     ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(iterate), formulation.overlap(iterate, kernels, "finite"))
-    figures = formulation.figures(iterate, "finite")
+    left = max(left, violation(iterate), formulation.overlap(iterate))
+    figures = formulation.figures(iterate)
     found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
-    return with_power_errors(formulation, found, "finite")
+    return with_power_errors(formulation, found)

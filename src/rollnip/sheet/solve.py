@@ -128,7 +128,7 @@ def _solve_with_fallback(
     """
     unsolved: list[Geometry] = []
     while True:
-        contact, refined = solve_in_geometry(MembraneFormulation(nip), model, cache)
+        contact, refined = solve_in_geometry(MembraneFormulation, nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
         if refined is not None and (simpler is None or refined.iterate.settled):
             reservations = simpler_geometry_reservations(unsolved, model.geometry)

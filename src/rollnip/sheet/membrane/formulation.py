@@ -8,9 +8,9 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.model import Geometry, Model
-from rollnip.nip import Creepage, Nip
-from rollnip.rolling import PairKernels
+from rollnip.model import Geometry
+from rollnip.nip import Creepage
+from rollnip.rolling import RollingContact
 from rollnip.rolling.mesh_solution import peak_pressure
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
@@ -33,24 +33,30 @@ Array = NDArray[np.float64]
 class MembraneFormulation:
     """A nip with a membrane: both interfaces share one contact and one pressure."""
 
-    nip: Nip
+    contact: RollingContact
 
-    def search(self, model: Model, kernels: PairKernels) -> MembraneSearch:
+    def of(self, contact: RollingContact) -> MembraneFormulation:
+        """Return the same formulation of another contact."""
+        return MembraneFormulation(contact)
+
+    def search(self) -> MembraneSearch:
         """Return the search for its zones."""
-        return MembraneSearch(self.nip, model, kernels)
+        return MembraneSearch(self.contact)
 
     @property
     def bending_length(self) -> float:
         """Length over which bending stiffness acts: infinite, for there is none."""
         return inf
 
-    def peak_tolerances(self, model: Model) -> tuple[float]:
+    @property
+    def peak_tolerances(self) -> tuple[float]:
         """Return the allowed relative error of the peak pressure."""
-        return (model.tolerance,)
+        return (self.contact.tolerance,)
 
-    def figures(self, iterate: MembraneIterate, geometry: Geometry) -> tuple[SheetFigures]:
+    def figures(self, iterate: MembraneIterate) -> tuple[SheetFigures]:
         """Return the figures of a solution."""
         problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
+        geometry = self.contact.geometry
         peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
         tension, strain = problem.tension_at(state, iterate.lagged.known), strain_at(iterate)
         widest = 1.0 if strain.max() > -strain.min() else -1.0
@@ -58,29 +64,29 @@ class MembraneFormulation:
         return (
             SheetFigures.of(
                 iterate,
-                sheet_powers(iterate, geometry, self.pulls(iterate, geometry), into_sheet),
+                sheet_powers(iterate, geometry, self.pulls(iterate), into_sheet),
                 peak,
                 (_largest_of(mesh, tension), -_largest_of(mesh, -tension)),
                 widest * _largest_of(mesh, widest * strain),
             ),
         )
 
-    def pulls(self, iterate: MembraneIterate, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: MembraneIterate) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
         problem, state, mesh = iterate.problem, iterate.state, iterate.problem.mesh
-        u = mesh.displacements(state)
+        geometry, u = self.contact.geometry, mesh.displacements(state)
         whole = smooth = pulls_of(problem, geometry, state, mesh.uncut(u))
         if mesh.held is not None:
             smooth = pulls_of(problem, geometry, state, u)
         return tuple(zip(whole, smooth, strict=True))
 
-    def overlap(self, iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: MembraneIterate) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
-        return overlap(iterate, kernels, geometry)
+        return overlap(iterate, self.contact.kernels, self.contact.geometry)
 
-    def with_corrections(self, iterate: MembraneIterate, kernels: PairKernels) -> MembraneIterate:
-        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
-        problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(kernels))
+    def with_corrections(self, iterate: MembraneIterate) -> MembraneIterate:
+        """Return a solution with lagged terms from the corrections of the contact."""
+        problem = replace(iterate.problem, mesh=iterate.problem.mesh.holding(self.contact.kernels))
         lagged = lagged_terms(problem, "finite", iterate.state)
         change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)
         return replace(iterate, problem=problem, lagged=lagged, change=change)

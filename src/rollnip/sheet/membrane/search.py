@@ -27,9 +27,8 @@ from rollnip.contact import (
     uncrowded,
 )
 from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
-from rollnip.model import FINITE, Geometry, Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels, surface_depths
+from rollnip.model import Geometry
+from rollnip.rolling import PairKernels, RollingContact, surface_depths
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.kinematics import arc_ratio
 from rollnip.rolling.surfaces import pair_displacements
@@ -82,11 +81,9 @@ MembraneIterate = SheetIterate[MembraneZones, MembraneProblem, MembraneState, Me
 
 @dataclass(frozen=True)
 class MembraneSearch:
-    """The search for the zones of a nip with a membrane, for one model."""
+    """The search for the zones of a nip with a membrane."""
 
-    nip: Nip
-    model: Model
-    kernels: PairKernels
+    contact: RollingContact
     secants: SecantSteps[MembraneZones] = field(default_factory=SecantSteps)
 
     def start(self, half_width: float, count: int) -> MembraneIterate:
@@ -115,7 +112,7 @@ class MembraneSearch:
 
         ``end_tolerance``: allowed error of a zone end, over the tolerance times the width.
         """
-        allowed = end_tolerance * self.model.tolerance
+        allowed = end_tolerance * self.contact.tolerance
         steps, misplacement = before.steps, before.misplacement
         changes = 0
         known = min(misplacement, 1.0)
@@ -173,14 +170,17 @@ class MembraneSearch:
 
     def _crowding(self, breaks: Array, known: float) -> Crowding:
         """Return the crowding of nodes at zone ends, ``known`` to this fraction of the width."""
-        width, rollers = float(breaks[-1] - breaks[0]), (self.nip.upper, self.nip.lower)
-        shortest = min(self.boundary, mismatch_layer(rollers, self.model.tolerance) * width)
+        width, rollers = (
+            float(breaks[-1] - breaks[0]),
+            (self.contact.nip.upper, self.contact.nip.lower),
+        )
+        shortest = min(self.boundary, mismatch_layer(rollers, self.contact.tolerance) * width)
         return crowding_of(breaks, max(shortest, max(known, SHORTEST_LAYER) * width))
 
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return shortest_layer(self.nip)
+        return shortest_layer(self.contact.nip)
 
     def _problem(
         self,
@@ -192,27 +192,29 @@ class MembraneSearch:
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._kernels_for(before)
         mesh = MembraneMesh.on(nodes, kernels, subdivided(nodes, *shape))
-        bends = before is not None and self.model.geometry != "linear"
-        return MembraneProblem.on(self.nip, mesh, self._path_ratios(mesh, before), has_path=bends)
+        bends = before is not None and self.contact.geometry != "linear"
+        return MembraneProblem.on(
+            self.contact.nip, mesh, self._path_ratios(mesh, before), has_path=bends
+        )
 
     def _path_ratios(self, mesh: MembraneMesh, before: MembraneIterate | None) -> Array | None:
         """Return ds/dx of the sheet's path in the previous solution; None: all 1."""
-        if before is None or self.model.geometry not in FINITE:
+        if before is None or not self.contact.has_finite_strain:
             return None
         own = before.problem.mesh
         x, u = own.fine.nodes[1:], own.finer(own.displacements(before.state))
-        ratio = arc_ratio(x, self.nip, self.model.geometry, u)
+        ratio = arc_ratio(x, self.contact.nip, self.contact.geometry, u)
         places = 0.5 * (mesh.fine.nodes[1:] + mesh.fine.nodes[:-1])
         return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
 
     def _kernels_for(self, before: MembraneIterate | None) -> PairKernels:
         """Return influence functions with second-order terms of the previous solution, if any."""
-        if self.kernels.is_fixed:
-            return self.kernels
+        if self.contact.kernels.is_fixed:
+            return self.contact.kernels
         held = NO_SECOND_ORDER
         if before is not None:
             held = before.problem.mesh.second_fields(before.state)
-        return replace(self.kernels, held=held)
+        return replace(self.contact.kernels, held=held)
 
     def _solve_on_mesh(
         self,
@@ -228,17 +230,17 @@ class MembraneSearch:
         Ends that are far off leave singular tractions, for which updated terms are meaningless.
         """
         system = FactorisedMembrane.of(problem, zones.states_on(problem.mesh.inner))
-        change, settled_change = 0.0, _STILL * self.model.tolerance
+        change, settled_change = 0.0, _STILL * self.contact.tolerance
         most = _MOST_ITERATIONS if misplacement[1] < _NEARLY_PLACED else 2
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1
-            if has_no_terms(problem.nip, self.model.geometry):
+            if has_no_terms(problem.nip, self.contact.geometry):
                 break
             if misplacement[0] > _NEARLY_PLACED:
                 change = 1.0
                 break
-            updated = lagged_terms(problem, self.model.geometry, state)
+            updated = lagged_terms(problem, self.contact.geometry, state)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated
             if not change > settled_change:
                 break
@@ -250,7 +252,7 @@ class MembraneSearch:
 
     @property
     def _slack(self) -> float:
-        return min(self.model.tolerance, _SLACK)
+        return min(self.contact.tolerance, _SLACK)
 
     def _other_zones(
         self, iterate: MembraneIterate, edges: MembraneZones

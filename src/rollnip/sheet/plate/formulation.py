@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.model import FINITE, Geometry, Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels
+from rollnip.rolling import RollingContact
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
@@ -36,41 +34,45 @@ _ON_LOWER = [NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_
 class PlateFormulation:
     """A nip with a plate: each interface has a contact of its own."""
 
-    nip: Nip
+    contact: RollingContact
 
-    def search(self, model: Model, kernels: PairKernels) -> PlateSearch:
+    def of(self, contact: RollingContact) -> PlateFormulation:
+        """Return the same formulation of another contact."""
+        return PlateFormulation(contact)
+
+    def search(self) -> PlateSearch:
         """Return the search for its zones."""
-        return PlateSearch(self.nip, model, kernels)
+        return PlateSearch(self.contact)
 
     @property
     def bending_length(self) -> float:
         """Length over which bending stiffness acts [mm]."""
-        return bending_length(self.nip)
+        return bending_length(self.contact.nip)
 
-    def peak_tolerances(self, model: Model) -> tuple[float, float]:
+    @property
+    def peak_tolerances(self) -> tuple[float, float]:
         """Return the allowed relative error of the peak pressure on each side.
 
         On a bare roller finite strain leaves the peak more uncertain than the tolerance.
         """
-        left = SHARE_OF_EDGE_PEAK["finite"] if model.geometry in FINITE else 0.0
-        rigid = max(model.tolerance, left)
+        contact, tolerance = self.contact, self.contact.tolerance
+        left = SHARE_OF_EDGE_PEAK["finite"] if contact.has_finite_strain else 0.0
+        rigid = max(tolerance, left)
         upper, lower = (
-            rigid if one.is_rigid else model.tolerance for one in (self.nip.upper, self.nip.lower)
+            rigid if one.is_rigid else tolerance for one in (contact.nip.upper, contact.nip.lower)
         )
         return upper, lower
 
-    def figures(
-        self, iterate: PlateIterate, geometry: Geometry
-    ) -> tuple[SheetFigures, SheetFigures]:
+    def figures(self, iterate: PlateIterate) -> tuple[SheetFigures, SheetFigures]:
         """Return figures with width and pressure of the upper interface, and of the lower one."""
         problem, state = iterate.problem, iterate.state
         x = _turning_places(problem, state)
         known = iterate.lagged.known
         tension, strain = problem.tension_at(state, known, x), problem.strain_at(state, known, x)
-        pulls = self.pulls(iterate, geometry)
+        pulls = self.pulls(iterate)
         upper = SheetFigures.of(
             iterate,
-            sheet_powers(iterate, geometry, pulls, _into_sheet(iterate)),
+            sheet_powers(iterate, self.contact.geometry, pulls, _into_sheet(iterate)),
             interface_peak(problem.meshes[0], state.pressure[0]),
             (float(tension.max()), float(tension.min())),
             float(strain[np.argmax(np.abs(strain))]),
@@ -82,9 +84,10 @@ class PlateFormulation:
         )
         return upper, SheetFigures(lower)
 
-    def pulls(self, iterate: PlateIterate, geometry: Geometry) -> Pulls:
+    def pulls(self, iterate: PlateIterate) -> Pulls:
         """Return int q lambda ds of both rollers [N/mm]."""
-        problem, state, out = iterate.problem, iterate.state, []
+        geometry, out = self.contact.geometry, []
+        problem, state = iterate.problem, iterate.state
         for side, mesh in enumerate(problem.meshes):
             u = problem.displacements(state, side)
             whole = smooth = pull_of(problem, geometry, state, side, mesh.uncut(u))
@@ -93,17 +96,17 @@ class PlateFormulation:
             out.append((whole, smooth))
         return out
 
-    def overlap(self, iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+    def overlap(self, iterate: PlateIterate) -> float:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
-        return overlap(iterate, kernels, geometry)
+        return overlap(iterate, self.contact.kernels, self.contact.geometry)
 
-    def with_corrections(self, iterate: PlateIterate, kernels: PairKernels) -> PlateIterate:
-        """Return a solution with lagged terms from other corrections; it has a new ``change``."""
-        meshes = list(iterate.problem.meshes)
-        for side, roller in enumerate((self.nip.upper, self.nip.lower)):
-            if not roller.is_rigid and kernels.held is not None:
-                held = kernels.held.of_side(side)
-                meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
+    def with_corrections(self, iterate: PlateIterate) -> PlateIterate:
+        """Return a solution with lagged terms from the corrections of the contact."""
+        nip, held, meshes = self.contact.nip, self.contact.kernels.held, [*iterate.problem.meshes]
+        for side, roller in enumerate((nip.upper, nip.lower)):
+            if not roller.is_rigid and held is not None:
+                own = replace(meshes[side].kernels, held=held.of_side(side))
+                meshes[side] = meshes[side].holding(own)
         problem = replace(iterate.problem, meshes=(meshes[0], meshes[1]))
         lagged = lagged_terms(problem, "finite", iterate.state, iterate.lagged)
         change = change_of_terms(lagged, iterate.lagged, problem, iterate.state)

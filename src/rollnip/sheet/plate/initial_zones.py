@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
-from rollnip.nip import Nip, Torque
-from rollnip.rolling import PairKernels
+from rollnip.nip import Torque
+from rollnip.rolling import RollingContact
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
@@ -38,8 +38,7 @@ _BESIDE = 8  # elements beyond each approximately known edge
 class InitialZones:
     """The search for initial zones, for one nip."""
 
-    nip: Nip
-    kernels: PairKernels
+    contact: RollingContact
 
     def around(self, half_width: float, count: int) -> PlateZones:
         """Return zones of a contact of which only an approximate half-width is known.
@@ -55,7 +54,9 @@ class InitialZones:
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
-        if isinstance(self.nip.tangential, Torque):  # the pressures tell which traction it takes
+        if isinstance(
+            self.contact.nip.tangential, Torque
+        ):  # the pressures tell which traction it takes
             first = lagged_terms(problem, "linear", state)
         return self.closer(PlateZones.around(problem, state), first, count)
 
@@ -69,9 +70,9 @@ class InitialZones:
         ``lagged``: terms of a solution with approximately these zones, of which the traction, the
         shear-borne load and the known tension are used.
         """
-        assert self.nip.sheet is not None
+        assert self.contact.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
-        has_peaks = not (self.nip.upper.layers and self.nip.lower.layers)
+        has_peaks = not (self.contact.nip.upper.layers and self.contact.nip.lower.layers)
         for _ in range(_MOST_REACHES):
             try:
                 found = self._beyond(zones, lagged, elements, margin)
@@ -80,7 +81,7 @@ class InitialZones:
             are_inside, zones = found.edges_off(zones) < _INSIDE * margin, found
             if are_inside:
                 margin *= _NEARER
-                if not has_peaks or margin * zones.width < self.nip.sheet.thickness:
+                if not has_peaks or margin * zones.width < self.contact.nip.sheet.thickness:
                     break
         return zones
 
@@ -103,7 +104,7 @@ class InitialZones:
 
         Where the edges are approximately known, nodes crowd there.
         """
-        kernels = self.kernels
+        kernels = self.contact.kernels
         if not kernels.is_fixed:
             kernels = replace(kernels, held=NO_SECOND_ORDER)
         meshes = []
@@ -112,7 +113,7 @@ class InitialZones:
             nodes = cosine_nodes(breaks, elements)
             fine = subdivided(nodes, elements)
             meshes.append(interface_mesh(nodes, fine, kernels, number))
-        return PlateProblem.on(self.nip, (meshes[0], meshes[1]))
+        return PlateProblem.on(self.contact.nip, (meshes[0], meshes[1]))
 
 
 def _breaks(

@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Crowding, cosine_nodes, crowding_of, elements_of_zones, subdivided
-from rollnip.model import FINITE, Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels
+from rollnip.model import Model
+from rollnip.rolling import PairKernels, RollingContact
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
@@ -71,25 +70,24 @@ _Shapes = dict[tuple[int, Crowding], NDArray[np.intp]]
 
 @dataclass(frozen=True)
 class PlateSearch:
-    """The search for the zones of a nip with a plate, for one model."""
+    """The search for the zones of a nip with a plate."""
 
-    nip: Nip
-    model: Model
-    kernels: PairKernels
+    contact: RollingContact
     secants: SecantSteps[PlateZones] = field(default_factory=SecantSteps)
 
     def start(self, half_width: float, count: int) -> PlateIterate:
         """Return a first solution in linear geometry whose zone ends are approximately right."""
-        plain = replace(self, model=replace(self.model, geometry="linear"))
+        linear = replace(self.contact.model, geometry="linear")
+        plain = replace(self, contact=self.contact.with_model(linear))
         zones = self._initial_zones.around(half_width, count).without_slivers()
         iterate, _ = plain._solve_with_zones(zones, (count, _Shapes()), (1.0, inf), None)
         moved = zones.moved(iterate.problem, iterate.state)
-        lagged = lagged_terms(iterate.problem, self.model.geometry, iterate.state)
+        lagged = lagged_terms(iterate.problem, self.contact.geometry, iterate.state)
         return replace(iterate, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
     def _initial_zones(self) -> InitialZones:
-        return InitialZones(self.nip, self.kernels)
+        return InitialZones(self.contact)
 
     def settle_zones(
         self,
@@ -103,7 +101,7 @@ class PlateSearch:
         ``before``: a solution with approximately these zones; ``end_tolerance``: allowed error of a
         zone end, over the tolerance times the width.
         """
-        allowed = end_tolerance * self.model.tolerance
+        allowed = end_tolerance * self.contact.tolerance
         try:
             iterate = self._settle_ends(zones, count, before, allowed)
         except np.linalg.LinAlgError:
@@ -129,10 +127,10 @@ class PlateSearch:
         """
         self.secants.begin_size()
         # With a finer tolerance, stick that has closed would open by less than shows where it ends.
-        reopening = max(self.model.tolerance, Model().tolerance)
+        reopening = max(self.contact.tolerance, Model().tolerance)
         shapes, tried = _Shapes(), set[bytes]()
         known, misplacement = min(before.misplacement, 1.0), inf
-        iterate, fair, least = before, None, self.model.tolerance
+        iterate, fair, least = before, None, self.contact.tolerance
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().reopened(END_TOLERANCE * reopening)
             if not zones.is_proper:
@@ -175,7 +173,7 @@ class PlateSearch:
         is_placed = (
             is_at_rest
             and not pulls_at_edges(iterate)
-            and added_to_peaks(iterate, proposed) <= self.model.tolerance
+            and added_to_peaks(iterate, proposed) <= self.contact.tolerance
             and zones.shows_roots(iterate.problem, iterate.state)
         )
         return _Judged(
@@ -198,7 +196,7 @@ class PlateSearch:
 
     def _is_in_doubt(self, latest: _Judged) -> bool:
         """Return whether a solution violates its conditions by more than ends that still move."""
-        is_near = latest.misplacement <= _NEARLY_PLACED and latest.violated > self.model.tolerance
+        is_near = latest.misplacement <= _NEARLY_PLACED and latest.violated > self.contact.tolerance
         return not latest.is_met and (latest.is_at_rest or is_near)
 
     def _solve_with_zones(
@@ -220,7 +218,7 @@ class PlateSearch:
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at zone ends [mm]."""
-        return shortest_layer(self.nip)
+        return shortest_layer(self.contact.nip)
 
     def _boundary_of(self, side: int) -> float:
         """Return the length of the shortest boundary layer on one interface [mm].
@@ -228,7 +226,7 @@ class PlateSearch:
         On a bare roller the pressure ends in a peak about as long as the sheet is thick. Through
         the sheet the other interface feels it.
         """
-        both, shortest = (self.nip.upper, self.nip.lower), self.boundary
+        both, shortest = (self.contact.nip.upper, self.contact.nip.lower), self.boundary
         for roller, share in ((both[side], _OF_THICKNESS), (both[1 - side], _OPPOSITE)):
             if not roller.layers:
                 shortest = min(shortest, share * self._thickness)
@@ -236,8 +234,8 @@ class PlateSearch:
 
     @property
     def _thickness(self) -> float:
-        assert self.nip.sheet is not None
-        return self.nip.sheet.thickness
+        assert self.contact.nip.sheet is not None
+        return self.contact.nip.sheet.thickness
 
     def _problem(
         self,
@@ -255,8 +253,8 @@ class PlateSearch:
         """
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
-            roller = (self.nip.upper, self.nip.lower)[number]
-            unlike = mismatch_layer((roller,), self.model.tolerance) * side.width
+            roller = (self.contact.nip.upper, self.contact.nip.lower)[number]
+            unlike = mismatch_layer((roller,), self.contact.tolerance) * side.width
             least = max(min(self._boundary_of(number), unlike), SHORTEST_LAYER * side.width)
             breaks = zones.breaks_of_mesh(number, self._thickness, peaks=not roller.layers)
             crowding = crowding_of(breaks, max(least, known * side.width))
@@ -269,19 +267,19 @@ class PlateSearch:
             fine = subdivided(nodes, kept, crowding)
             meshes.append(interface_mesh(nodes, fine, self._kernels_for(before, number), number))
         both = meshes[0], meshes[1]
-        return PlateProblem.on(self.nip, both, self._path_ratios(both, before)), is_fine
+        return PlateProblem.on(self.contact.nip, both, self._path_ratios(both, before)), is_fine
 
     def _path_ratios(
         self, meshes: tuple[Mesh, Mesh], before: PlateIterate | None
     ) -> tuple[Array, Array] | None:
         """Return ds/dx of the sheet's path in the previous solution, at both meshes' nodes."""
-        if before is None or self.model.geometry not in FINITE:
+        if before is None or not self.contact.has_finite_strain:
             return None
         out = []
         for side, (new, own) in enumerate(zip(meshes, before.problem.meshes, strict=True)):
             x = own.fine.nodes[1:]
             u = own.finer(before.problem.displacements(before.state, side))
-            ratio = path_ratio(x, self.nip, side, u)
+            ratio = path_ratio(x, self.contact.nip, side, u)
             out.append(np.interp(new.inner, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
 
@@ -290,12 +288,12 @@ class PlateSearch:
 
         Influence functions without second-order terms are returned unchanged.
         """
-        if self.kernels.is_fixed:
-            return self.kernels
+        if self.contact.kernels.is_fixed:
+            return self.contact.kernels
         held = NO_SECOND_ORDER
-        if before is not None and (self.nip.upper, self.nip.lower)[side].layers:
+        if before is not None and (self.contact.nip.upper, self.contact.nip.lower)[side].layers:
             held = before.problem.meshes[side].second_fields(before.state.side(side))
-        return replace(self.kernels, held=held)
+        return replace(self.contact.kernels, held=held)
 
     def _solve_on_mesh(
         self,
@@ -308,12 +306,12 @@ class PlateSearch:
         """Solve on two meshes with given zones, iterating the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
-        change, settled_change = 0.0, min(_STILL[0] * self.model.tolerance, _STILL[1])
+        change, settled_change = 0.0, min(_STILL[0] * self.contact.tolerance, _STILL[1])
         state, steps = system.solved(lagged), steps + 1
         for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
-            if has_no_terms(problem.nip, self.model.geometry):
+            if has_no_terms(problem.nip, self.contact.geometry):
                 break
-            updated = lagged_terms(problem, self.model.geometry, state, lagged)
+            updated = lagged_terms(problem, self.contact.geometry, state, lagged)
             change, lagged = change_of_terms(updated, lagged, problem, state), updated
             state, steps = system.solved(lagged), steps + 1
             if not change > settled_change:
@@ -332,7 +330,7 @@ class PlateSearch:
 
     @property
     def _slack(self) -> float:
-        return _SLACK * self.model.tolerance
+        return _SLACK * self.contact.tolerance
 
     def _consistent_zones(self, latest: _Judged) -> PlateZones | None:
         """Return zones with consistent states between known edges; None where there are none.

@@ -102,7 +102,7 @@ def _solve_with_fallback(
     tried: list[tuple[RollingContact, Refined[PlateIterate] | None]] = []
     now: Model | None = model
     while now is not None:
-        tried.append(solve_in_geometry(PlateFormulation(nip), now, cache))
+        tried.append(solve_in_geometry(PlateFormulation, nip, now, cache))
         if _is_settled(tried[-1][1]):
             break
         simpler = SIMPLER.get(now.geometry)
@@ -169,9 +169,8 @@ def _verdict(
 
 def _as_allowed(side: int, final: MeshSolution) -> MeshSolution:
     """Return one side for its verdict, without the error of a peak that is within its own limit."""
-    peak, formulation = final.error.peak_pressure, PlateFormulation(final.nip)
-    most = formulation.peak_tolerances(final.contact.model)[side] * final.figures.peak_pressure
-    if peak > most:
+    allowed = PlateFormulation(final.contact).peak_tolerances[side]
+    if final.error.peak_pressure > allowed * final.figures.peak_pressure:
         return final
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 

@@ -17,7 +17,7 @@ from math import inf
 import numpy as np
 
 from rollnip.all_orders.corrections import cut_factor_at
-from rollnip.contact import NEAR_ENOUGH, Layout
+from rollnip.contact import NEAR_ENOUGH
 from rollnip.model import Model
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
@@ -105,7 +105,7 @@ def first_contact(
         *_, located = sizes
         return located, ContactStage.COARSE
     for located in sizes:
-        layout = Layout.of(located.zones, nip.friction) if located.settled else None
+        layout = located.layout if located.settled else None
         if layout is not None and is_too_deep is not None and is_too_deep(located, is_rough=True):
             return located, ContactStage.COARSE
         if layout is not None:
@@ -221,10 +221,9 @@ def _refined(latest: MeshSolution) -> MeshSolution:
 
 def _with_free_ends(latest: MeshSolution) -> MeshSolution | None:
     """Return a verified solution with about the zones of a coarse one; None where there is none."""
-    layout = Layout.of(latest.zones, latest.nip.friction)
-    if layout is None:
+    if latest.layout is None:
         return None
-    found = with_free_ends(latest, layout, _COARSE_TOLERANCE)
+    found = with_free_ends(latest, latest.layout, _COARSE_TOLERANCE)
     return found if is_verified(found) else None
 
 
@@ -258,8 +257,7 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
     Nodes that crowd at a boundary layer need ends that are placed exactly, except where friction
     grips a skin: there the correction moves them by more than that.
     """
-    contact, found = latest.contact, None
-    layout = Layout.of(latest.zones, contact.nip.friction)
+    contact, layout, found = latest.contact, latest.layout, None
     if layout is not None:
         is_coarse = stage is ContactStage.COARSE
         lagged = lagged_terms(contact, latest.mesh, latest.state)

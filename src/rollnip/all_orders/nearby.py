@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import log
 
-from rollnip.contact import NEAR_ENOUGH, Layout
+from rollnip.contact import NEAR_ENOUGH
 from rollnip.nip import Nip
 from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.mesh_solution import MeshSolution
@@ -33,18 +33,16 @@ def contact_nearby(
     -------
     None where the nips are not alike enough, or no solution is found.
     """
-    nip, held = contact.nip, near.contact.kernels.held
-    layout = Layout.of(near.zones, nip.friction)
-    if held is None or held.share < 1.0 or layout is None:
-        return None
-    if _kind(near.nip) != _kind(nip):
+    held = near.contact.kernels.held
+    if held is None or held.share < 1.0 or _kind(near.nip) != _kind(contact.nip):
         return None
     near_half_width = half_width_guess(near.nip, near.contact.kernels)
     if not abs(log(near_half_width / half_width)) < NEAR_ENOUGH:
         return None
-    contact = contact.holding(held)
-    before = replace(near.with_correction_of(contact), steps=0)
-    found = with_free_ends(before, layout, NEAR_ENOUGH)
+    before = replace(near.with_correction_of(contact.holding(held)), steps=0)
+    if before.layout is None:
+        return None
+    found = with_free_ends(before, before.layout, NEAR_ENOUGH)
     return found if is_verified(found) else None
 
 

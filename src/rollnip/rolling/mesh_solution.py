@@ -15,6 +15,7 @@ from rollnip.contact import (
     ContactProblem,
     ContactState,
     ContactZone,
+    Layout,
     TurningSlip,
     ZoneEnd,
     slip_by_turning,
@@ -161,6 +162,11 @@ class MeshSolution:
     def geometry(self) -> Geometry:
         """The geometry model that it was solved in."""
         return self.contact.geometry
+
+    @property
+    def layout(self) -> Layout | None:
+        """Its zones, with stick where slip reverses, see `Layout.of`; None where they have none."""
+        return Layout.of(self.zones, self.nip.friction)
 
     @cached_property
     def displacements(self) -> Displacements:

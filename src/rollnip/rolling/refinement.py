@@ -81,7 +81,7 @@ def free_ends_from_nodes(located: MeshSolution, most: int | None = None) -> Mesh
     Its first mesh has as many elements as that one, or ``most`` if these are fewer. Nodes that
     crowd at the ends of short zones add to them.
     """
-    layout, count = Layout.of(located.zones, located.nip.friction), located.mesh.inner.size
+    layout, count = located.layout, located.mesh.inner.size
     if layout is None:
         return None
     fewest = count if most is None else min(count, most)

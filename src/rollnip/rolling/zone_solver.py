@@ -1,4 +1,4 @@
-"""The contact of a nip with given zones, solved on meshes whose nodes lie at their ends."""
+"""The contact with given zones, solved on a mesh whose nodes lie at their ends."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class SearchState:
 
     @property
     def second_order_settled(self) -> bool:
-        """Whether further evaluations of the second order would change it negligibly, or not."""
+        """Whether the second order is fixed, or further evaluations would hardly change it."""
         return self.contact.kernels.is_fixed or self.to_come <= 1.0
 
     @property

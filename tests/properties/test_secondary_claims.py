@@ -11,8 +11,7 @@ from claims import ALLOWED, reference, solved
 from population import random_case
 
 import rollnip as rn
-from rollnip.rolling.power_balance import rates_of
-from rollnip.rolling.secondary import secondary_figures, secondary_sizes
+from rollnip.rolling.power_balance import rates_of, secondary_figures, secondary_sizes
 
 MOST = 800  # elements of a reference, for time
 

@@ -14,7 +14,7 @@ from rollnip.rolling.estimates import (
     with_secondary_errors,
 )
 from rollnip.rolling.mesh_solution import Figures, SecondaryFigures
-from rollnip.rolling.secondary import secondary_sizes
+from rollnip.rolling.power_balance import secondary_sizes
 
 
 @pytest.fixture

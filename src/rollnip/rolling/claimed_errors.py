@@ -20,8 +20,7 @@ from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.lengths import grips_skin, skin_thickness
 from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures
-from rollnip.rolling.power_balance import Powers, rates_of
-from rollnip.rolling.secondary import secondary_figures_of, secondary_sizes
+from rollnip.rolling.power_balance import Powers, rates_of, secondary_figures_of, secondary_sizes
 
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Relative change of these figures between grids of 12 to 32 points a half-width in "second",

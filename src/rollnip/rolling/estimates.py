@@ -20,7 +20,7 @@ from rollnip.rolling.mesh_solution import (
     SecondaryFigures,
 )
 from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
-from rollnip.rolling.secondary import secondary_sizes
+from rollnip.rolling.power_balance import secondary_sizes
 from rollnip.rolling.surfaces import Mesh
 
 # Least relative error of each of Figures, times the square of the number of elements: measured on

@@ -25,7 +25,7 @@ from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import negligible_slip
 from rollnip.rolling.placing import place_ends
-from rollnip.rolling.secondary import secondary_figures
+from rollnip.rolling.power_balance import secondary_figures
 from rollnip.rolling.zone_solver import SearchState
 
 _FIRST_COUNT = 18

@@ -16,6 +16,9 @@ residual: in a zone of a thousandth of the contact slip may be reversed, by as l
 residual allows. The loss of such a zone is set to 0, which is the possible loss closest to the
 computed one, and closer to the true one than that. The difference counts as an error of the loss,
 and the powers miss their balance by as much.
+
+The secondary figures are these, a length and a place: figures whose errors are estimated but not
+held to the tolerance.
 """
 
 from __future__ import annotations
@@ -26,11 +29,13 @@ from math import isnan, nan
 
 import numpy as np
 
+from rollnip.contact import contact_intervals
 from rollnip.contact.problem import Array, Mask
 from rollnip.model import FINITE, Geometry
 from rollnip.rollers import SIDES
+from rollnip.rolling.changes import LEAST_SIZE
 from rollnip.rolling.kinematics import creep_of
-from rollnip.rolling.mesh_solution import MeshSolution
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
 from rollnip.rolling.surface_work import loss_inside, moment, slip_intervals, transmitted
 
 
@@ -118,3 +123,41 @@ def slip_losses(work: Array, zones: Sequence[Mask]) -> tuple[float, float]:
     """
     of_zones = [float(work[inside].sum()) for inside in zones]
     return sum(max(one, 0.0) for one in of_zones), sum(max(-one, 0.0) for one in of_zones)
+
+
+def secondary_figures(found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution."""
+    return secondary_figures_of(powers(found), found)
+
+
+def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures:
+    """Return the secondary figures of a solution, given its powers."""
+    mesh, state = found.mesh, found.state
+    _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+    return SecondaryFigures(
+        traction=float(mesh.weights @ state.shear),
+        driving_upper=spent.driving_upper,
+        driving_lower=spent.driving_lower,
+        friction=spent.friction,
+        lost_upper=spent.lost_upper,
+        lost_lower=spent.lost_lower,
+        contact_length=sum(stop - start for start, stop in contact_intervals(found.zones)),
+        peak_pressure_x=place,
+    )
+
+
+def secondary_sizes(latest: MeshSolution, figures: SecondaryFigures) -> Array:
+    """Return the sizes that errors of `SecondaryFigures` are relative to, (8,).
+
+    Each is at least `LEAST_SIZE` of the largest value that the figure may have. A figure that
+    vanishes for lack of friction or viscosity has size 0, so no error.
+    """
+    nip, load, width = latest.nip, latest.figures.load, latest.figures.nip_width
+    work = load * 0.5 * width * nip.curvature  # of the load on the slope of the gap at an edge
+    grip = min(nip.friction, 1.0)
+    traction = max(abs(figures.traction), LEAST_SIZE * grip * load)
+    friction = max(abs(figures.friction), LEAST_SIZE * grip * work)
+    both = (nip.upper, figures.lost_upper), (nip.lower, figures.lost_lower)
+    lost = [max(one, LEAST_SIZE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
+    driving = [work if nip.friction > 0.0 or of.is_viscoelastic else 0.0 for of, _ in both]
+    return np.array([traction, *driving, friction, *lost, width, width])

@@ -158,3 +158,44 @@ def test_iterations_do_not_alternate_between_two_places_of_a_transition():
     assert solution.model.geometry == "finite"
     width = stick.stop - slip.start
     assert slip.stop == pytest.approx(exact.zones[0].stop, abs=1e-3 * width)
+
+
+@pytest.mark.parametrize(
+    ("nip", "figure"),
+    [
+        # The pressure peaks beside a transition, which a coarse tolerance left 0.7 % of the width
+        # from its place: the peak was off by four times its claim.
+        (
+            rn.Nip(
+                upper=rn.Roller(radius=15.991),
+                lower=rn.Roller(
+                    radius=54.276, layers=[rn.Layer(3.9229, rn.Elastic(modulus=1.871, poisson=0.5))]
+                ),
+                normal=rn.LineLoad(0.27193),
+                tangential=rn.Traction(-0.31611),
+                friction=1.7614,
+            ),
+            "peak_pressure",
+        ),
+        # The conditions were met to 0.0007 when the creepage was still to change by 0.012.
+        (
+            rn.Nip(
+                upper=rn.Roller(
+                    radius=21.056,
+                    layers=[rn.Layer(2.1588, rn.Elastic(modulus=0.8567, poisson=0.5))],
+                ),
+                lower=rn.Roller(radius=21.519),
+                normal=rn.LineLoad(0.034641),
+                tangential=rn.Traction(0.0064898),
+                friction=0.28773,
+            ),
+            "creepage",
+        ),
+    ],
+    ids=["peak", "creepage"],
+)
+def test_a_coarse_tolerance_leaves_no_error_beyond_its_claim(nip, figure):
+    coarse, exact = (rn.solve(nip, rn.Model(tolerance=one)) for one in (1e-2, 2e-4))
+    assert coarse.converged
+    off = abs(getattr(coarse, figure) - getattr(exact, figure))
+    assert off <= coarse.error[figure]

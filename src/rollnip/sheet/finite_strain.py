@@ -24,8 +24,8 @@ from rollnip.all_orders.contact_stages import NEARLY_CONVERGED, coarse_model
 from rollnip.all_orders.corrections import PairCorrection, RollerTractions
 from rollnip.all_orders.iteration import (
     CUT_FACTORS,
+    ITERATION_TOLERANCE,
     MOST_CORRECTIONS,
-    SKIN_TOLERANCE,
     SMALL_CHANGE,
 )
 from rollnip.finite import NoEquilibriumError
@@ -33,7 +33,6 @@ from rollnip.model import Model
 from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.lengths import skin_thickness
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_slip_works
@@ -58,8 +57,7 @@ def solve_by_iteration(
     The influence functions with the last corrections and the solution with them; None where there
     is no equilibrium, or zones or corrections do not converge.
     """
-    if skin_thickness(formulation.nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, SKIN_TOLERANCE))
+    model = replace(model, tolerance=min(model.tolerance, ITERATION_TOLERANCE))
     coarse = coarse_model(model)
     try:
         iterate = _begun(formulation, coarse, kernels, half_width, allowed=coarse.tolerance)

@@ -44,8 +44,8 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     """Solve the steady rolling of two rollers with a sheet between them.
 
     The sheet is solved as a plate where its bending stiffness is asked for, or where it is left
-    open and the spreading length is not small against the nip width. Otherwise, or where no plate
-    solution can be verified, it is solved as a membrane.
+    open and the spreading length is not small against the nip width. Otherwise, or where it has no
+    solution as a plate, it is solved as a membrane.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         if solution is not None:
             return solution
         if bending_length(nip) > limit:  # otherwise the errors cover the tension's effect
-            text = "No solution with the sheet's bending stiffness could be verified."
+            text = "No solution with the sheet's bending stiffness was found."
             record = (version, (Reservation("no_plate", text),))
     return _solve_as_membrane(nip, model, cache, record, start)
 

@@ -199,3 +199,49 @@ def test_a_coarse_tolerance_leaves_no_error_beyond_its_claim(nip, figure):
     assert coarse.converged
     off = abs(getattr(coarse, figure) - getattr(exact, figure))
     assert off <= coarse.error[figure]
+
+
+QUICK_MEMORY = rn.StandardLinearSolid(
+    modulus=0.9959, stiffening=3.701, relaxation_time=0.001222, poisson=0.49
+)
+
+
+@pytest.mark.parametrize(
+    "nip",
+    [
+        # memory of 0.02 mm in a nip of 1.9 mm; beside the transition 4 % beyond the bound
+        rn.Nip(
+            upper=rn.Roller(radius=41.13),
+            lower=rn.Roller(radius=30.23, layers=[rn.Layer(0.952, QUICK_MEMORY)]),
+            normal=rn.LineLoad(0.1188),
+            tangential=rn.Traction(-0.01252),
+            friction=0.2692,
+            speed=18.98,
+        ),
+        # a top layer of 0.03 mm, five zones
+        rn.Nip(
+            upper=rn.Roller(
+                radius=47.36, layers=[rn.Layer(2.246, rn.Elastic(modulus=5.251, poisson=0.5))]
+            ),
+            lower=rn.Roller(
+                radius=20.11,
+                layers=[
+                    rn.Layer(0.02615, rn.Elastic(modulus=3.597, poisson=0.5)),
+                    rn.Layer(0.3971, rn.Elastic(modulus=10.22, poisson=0.5)),
+                ],
+            ),
+            normal=rn.LineLoad(0.1218),
+            friction=0.05172,
+            tangential=rn.Traction(0.0),
+        ),
+    ],
+    ids=["memory", "thin top"],
+)
+def test_the_last_contact_is_right_beside_its_ends(nip):
+    """Ends that lie within the tolerance are not exact enough beside a boundary layer.
+
+    Such nips were solved in "second", as the iteration had nothing else left to change.
+    """
+    solution = rn.solve(nip)
+    assert solution.model.geometry == "finite"
+    assert solution.converged

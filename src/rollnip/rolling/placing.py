@@ -47,6 +47,7 @@ class Placing:
         zones_known: bool,
         settles_figures: bool = False,
         follows_correction: bool = False,
+        may_be_last: bool = False,
     ) -> SearchState | None:
         """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -63,6 +64,8 @@ class Placing:
             shown it.
         follows_correction : whether a correction held has moved the ends and will move them again,
             on meshes like the last one. They need not be placed then, see `_have_followed`.
+        may_be_last : whether the correction may call for no other contact. Pressure and shear
+            beside the ends must then be right, wherever the ends are.
 
         Returns
         -------
@@ -76,11 +79,16 @@ class Placing:
         most_meshes = self._most_meshes(start.layout)
         while search.meshes < most_meshes and _can_be_placed(search.state.layout):
             search.solve_mesh()
-            if follows_correction and self._have_followed(search):
+            if follows_correction and self._have_followed(search, may_be_last=may_be_last):
                 return search.result()
             # The figures show errors of ends only with the zones of the previous size.
             same_zones = settles_figures and search.layout.is_like(start.layout)
-            is_placed = self._is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
+            is_placed = self._is_placed_by(
+                search,
+                zones_known=zones_known,
+                same_zones=same_zones,
+                checks_bound=same_zones or may_be_last,
+            )
             others = self.zone_search.other_zones(
                 search.latest,
                 search.layout,
@@ -110,25 +118,33 @@ class Placing:
         """The search for other zones that a solution calls for."""
         return ZoneSearch(self.nip, self.model)
 
-    def _have_followed(self, search: EndSearch) -> bool:
+    def _have_followed(self, search: EndSearch, *, may_be_last: bool) -> bool:
         """Return whether the ends on a mesh have followed a correction that may still change.
 
         All of them lie within the tolerance of where the solution puts them: a transition that is
         misplaced by more has shears beyond the bound beside it, and the correction of such shears
-        would move it again. The solution must call for no other zones.
+        would move it again. The solution must call for no other zones. Beside a boundary layer or a
+        short zone that is not exact enough for the last contact (``may_be_last``).
         """
-        layout, proposed = search.layout, search.proposed
+        layout, proposed, latest = search.layout, search.proposed, search.latest
         distance = proposed.distance(layout, transitions_count=1.0)
         if not (proposed.is_proper and distance <= self.model.tolerance):
             return False
+        if may_be_last and (_is_false_at_edge(latest) or self._exceeds_bound(latest)):
+            return False
         is_placed = self._are_ends_placed(layout, search.misplacement, zones_known=True)
-        wanted = self.zone_search.changed_states(search.latest, layout, checks_contact=is_placed)
+        wanted = self.zone_search.changed_states(latest, layout, checks_contact=is_placed)
         return wanted is None
 
-    def _is_placed_by(self, search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
+    def _is_placed_by(
+        self, search: EndSearch, *, zones_known: bool, same_zones: bool, checks_bound: bool
+    ) -> bool:
         """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
-        ``same_zones``: whether figures can be compared with those of the previous size.
+        Parameters
+        ----------
+        same_zones : whether figures can be compared with those of the previous size.
+        checks_bound : whether shears beyond the bound beside transitions deny it.
         """
         layout, latest = search.layout, search.latest
         # Without friction figures hardly depend on the ends; at finite strain corrections need ends
@@ -141,7 +157,7 @@ class Placing:
             )
             and (search.proposed.is_proper and latest.settled and search.second_order_settled)
             and not (by_figures and self._changes(search))
-            and not (_is_false_at_edge(latest) or (same_zones and self._exceeds_bound(latest)))
+            and not (_is_false_at_edge(latest) or (checks_bound and self._exceeds_bound(latest)))
             and not crowds_more(self.solver.crowding(layout), latest.mesh.fine.crowding)
         )
 

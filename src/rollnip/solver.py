@@ -264,7 +264,7 @@ def _how_far(failure: IterationFailure) -> str:
 
 def _require_grip(nip: Nip, final: MeshSolution) -> None:
     """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
-    wanted = final.problem.control.traction
+    wanted = final.wanted_traction
     if wanted is None or has_grip(final):
         return
     is_known = isinstance(nip.normal, LineLoad) and not isinstance(nip.tangential, Torque)
@@ -283,7 +283,7 @@ def _require_less_than_sliding(
     traction by the moment of the pressure alone, for which theirs stands; for finite strain they
     slide in "curved".
     """
-    wanted = final.problem.control.traction
+    wanted = final.wanted_traction
     assert wanted is not None  # `_may_spin`
     sliding = replace(nip, tangential=Creepage(copysign(_SLIDING, wanted)))
     simple = replace(model, geometry="curved") if model.geometry in FINITE else model
@@ -325,8 +325,8 @@ def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, s
     """Return `_check` without what it adds on very thin coverings and very small friction."""
     if not final.settled and _may_spin(nip, final):
         return False, (
-            "Contact, stick and slip did not settle: the nip may need a traction of about "
-            f"{final.problem.control.traction:.4g} N/mm, but friction carries at most "
+            "Contact, stick and slip did not settle: the nip needs a traction of about "
+            f"{final.wanted_traction:.4g} N/mm, and friction carries about "
             f"{nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the traction "
             "or torque, or raise the load or the friction."
         )
@@ -365,7 +365,7 @@ def _first_failure(nip: Nip, model: Model, final: MeshSolution) -> tuple[bool, s
 
 def _may_spin(nip: Nip, final: MeshSolution) -> bool:
     """Return whether a round that has not settled needs as much traction as friction can carry."""
-    wanted = final.problem.control.traction
+    wanted = final.wanted_traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
 

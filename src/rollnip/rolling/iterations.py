@@ -78,10 +78,15 @@ def solve_on_mesh(
     """
     states, lagged, steps = start
     change = 0.0
+    reached: float | None = None  # the last traction for a torque that friction carries
     for _ in range(MOST_ITERATIONS):
         problem = contact_problem(nip, mesh, lagged)
         state = method.solve(problem, states)
         steps += state.steps
+        if not state.settled and reached is not None and _is_far(reached, lagged, model):
+            lagged = lagged.nearer_to(reached)
+            continue
+        reached = lagged.traction
         if not state.settled or has_no_lagged_terms(nip, model.geometry):
             break
         updated = lagged_terms(nip, model.geometry, mesh, state)
@@ -107,6 +112,12 @@ def solve_on_mesh(
         settled=settled,
         geometry_change=change,
     )
+
+
+def _is_far(reached: float, lagged: LaggedTerms, model: Model) -> bool:
+    """Return whether the traction for a torque is beyond the one reached by over the tolerance."""
+    sought = lagged.traction
+    return sought is not None and abs(sought - reached) > model.tolerance * abs(sought)
 
 
 def change_of(

@@ -174,6 +174,12 @@ class MeshSolution:
         return tuple(slip for slip in found if slip is not None)
 
     @property
+    def wanted_traction(self) -> float | None:
+        """Traction that is prescribed, or that the prescribed torque asks for; else None [N/mm]."""
+        asked = self.lagged.wanted_traction
+        return self.problem.control.traction if asked is None else asked
+
+    @property
     def has_free_ends(self) -> bool:
         """Return whether nodes lie at the ends of its zones, unlike in a search node by node."""
         return bool(self.mesh.fine.elements)
@@ -297,7 +303,7 @@ def scale_of_creepage(creepage: float, slope: float) -> float:
 
 def has_grip(latest: MeshSolution) -> bool:
     """Return whether friction can carry the prescribed traction: |T| < mu F."""
-    wanted = latest.problem.control.traction
+    wanted = latest.wanted_traction
     limit = latest.problem.friction * latest.figures.load
     if not latest.geometry_change < 1.0:  # diverged lagged terms say nothing of friction
         return True

@@ -96,8 +96,8 @@ def none_found(nip: Nip, otherwise: str) -> str:
     if _may_slip_through(nip):
         return (
             "No solution with this sheet was found. It asks for nearly all that friction carries, "
-            "and on a curved path a thick sheet slips through at a little less; lower the traction "
-            "or the difference of the tensions, or raise the load or the friction."
+            "or more, and on a curved path a thick sheet slips through at a little less; lower the "
+            "traction or the difference of the tensions, or raise the load or the friction."
         )
     return otherwise
 
@@ -127,6 +127,8 @@ def _may_slip_through(nip: Nip) -> bool:
     if nip.sheet is None or not isinstance(nip.normal, LineLoad):
         return False
     given = nip.tangential.traction if isinstance(nip.tangential, Traction) else None
+    if isinstance(nip.tangential, Torque):
+        given = -nip.tangential.torque_lower * nip.lower.curvature  # less the pressure's moment
     asked = asked_of_friction(nip, nip.normal.load, given).values()
     share = 1.0 - lever_ratio(nip)
     return any(abs(pull) >= share * limit for pull, limit in asked)

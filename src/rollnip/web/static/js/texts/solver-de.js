@@ -28,7 +28,7 @@ export const SOLVER_DE = {
   "solver.bends-freely-far": "Die Biegesteifigkeit der Bahn und ihr Zug wirken über {length} mm, {share} % der Spaltbreite; beide bleiben weg: Druck und Spaltbreite sind die einer Bahn, die sich frei biegt. Beide können weit falsch sein.",
   "solver.energy": "Werkstoff {number} (von der Oberfläche aus) der {side} Walze hat eine eigene Energie ({law}), die nur im Modell „Endliche Dehnung“ zählt; hier zählen allein sein Modul und seine Querdehnzahl.",
   "solver.ends": "Gefunden wurde, welche Knoten sich berühren, haften und gleiten, aber nicht, wo ihre Zonen enden; versuchen Sie eine andere Last oder Toleranz.",
-  "solver.settle": "Kontakt, Haften und Gleiten kamen nicht zur Ruhe: Verlangt ist eine Umfangskraft von etwa {wanted} N/mm, und Reibung mal Last trägt {limit} N/mm; verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
+  "solver.settle": "Kontakt, Haften und Gleiten kamen nicht zur Ruhe: Verlangt ist eine Umfangskraft von etwa {wanted} N/mm, und Reibung mal Last trägt etwa {limit} N/mm; verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.violated": "Die Kontaktbedingungen sind um {left} (relativ) verletzt, mehr als die Toleranz {tolerance}; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.error": "Der geschätzte Fehler ({figure}) ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.error-lower": "Auf der Unterseite: Der geschätzte Fehler ({figure}) ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",

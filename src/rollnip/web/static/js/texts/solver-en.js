@@ -28,7 +28,7 @@ export const SOLVER_EN = {
   "solver.bends-freely-far": "The bending stiffness of the sheet and its tension count over {length} mm, {share} % of the nip width; they are left out, so pressure and nip width are those of a sheet that bends freely. Both may be far off.",
   "solver.energy": `Material {number} (from the surface) of the {side} roller has a strain energy ({law}), which counts only in geometry "finite"; here its modulus and Poisson ratio alone are used.`,
   "solver.ends": "The contact, stick and slip zones were found, but not exactly where they end; try another load or tolerance.",
-  "solver.settle": "Contact, stick and slip did not settle: the nip may need a traction of about {wanted} N/mm, but friction carries at most {limit} N/mm (friction * load); lower the traction or torque, or raise the load or the friction.",
+  "solver.settle": "Contact, stick and slip did not settle: the nip needs a traction of about {wanted} N/mm, and friction carries about {limit} N/mm (friction * load); lower the traction or torque, or raise the load or the friction.",
   "solver.violated": "The contact conditions are violated by {left} (relative), more than the tolerance {tolerance}; accept it with a larger tolerance.",
   "solver.error": "The estimated error of the {figure} is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",
   "solver.error-lower": "On the lower side: The estimated error of the {figure} is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",

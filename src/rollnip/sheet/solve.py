@@ -23,6 +23,7 @@ from rollnip.sheet.checks import (
     require_torque,
     sheet_verdict,
     simpler_geometry_reservations,
+    thick_sheet_reservations,
 )
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
@@ -111,6 +112,7 @@ def _solve_as_membrane(
             + on_geometry
             + _reservations(nip, refined)
             + curved_tension_reservations(nip, model)
+            + thick_sheet_reservations(nip, final.figures.nip_width)
             + validity_reservations(nip, model, final, strains)
         ),
         solver=refined.solver_info(perf_counter() - start, version),

@@ -23,6 +23,7 @@ from rollnip.sheet.checks import (
     require_grip,
     sheet_verdict,
     simpler_geometry_reservations,
+    thick_sheet_reservations,
 )
 from rollnip.sheet.one_geometry import solve_in_geometry
 from rollnip.sheet.plate.formulation import PlateFormulation
@@ -128,6 +129,8 @@ def _assembled(
     strains = _strains(nip, model, both)
     reservations += compression_reservations(refined.figures, refined.errors)
     reservations += curved_tension_reservations(nip, model)
+    narrower = min(one.figures.nip_width for one in both)
+    reservations += thick_sheet_reservations(nip, narrower)
     reservations += validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(

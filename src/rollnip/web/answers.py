@@ -16,7 +16,7 @@ from rollnip._json import json_bytes
 _PATH = re.compile(r"(materials\..{1,80}?|[^\s:]{1,120}): (.*)", re.DOTALL)
 _NAMED = re.compile(r"`([\w.]+)`")
 SOURCE = "case"
-NIP_KEYS = {"geometry": "model.geometry", "profile": "upper.profile"} | {
+_NIP_KEYS = {"geometry": "model.geometry", "profile": "upper.profile"} | {
     name: f"nip.{name}" for name in ("load", "approach", "traction", "creepage", "torque_lower")
 }
 """Keys at fault where a nip is refused while it is solved, by the names in the errors."""
@@ -86,15 +86,17 @@ def at_its_key(error: InvalidInputError, path_of: Callable[[str], str]) -> CaseF
 
 
 @contextmanager
-def at_keys(places: Mapping[str, str], otherwise: str) -> Iterator[None]:
+def at_keys(places: Mapping[str, str] | None = None, otherwise: str = "nip") -> Iterator[None]:
     """Raise what the solver refuses within the block as an error of the case, at its key.
 
-    ``places``: paths of keys by the names that errors begin with; ``otherwise``: of other errors.
+    ``places``: paths of keys by the names that errors begin with, those of a nip by default;
+    ``otherwise``: of other errors.
     """
+    keys = _NIP_KEYS if places is None else places
     try:
         yield
     except InvalidInputError as error:
-        raise at_its_key(error, lambda name: places.get(name, otherwise)) from None
+        raise at_its_key(error, lambda name: keys.get(name, otherwise)) from None
 
 
 def _placed(line: str) -> tuple[str, str]:

@@ -255,12 +255,12 @@ class Nip:
                     f"`friction_{side}` of the sheet must be given and positive where the "
                     "`friction` of the nip is 0: without friction nothing feeds the sheet."
                 )
-        smaller = min(self.upper.radius, self.lower.radius)
-        if sheet.thickness >= smaller:
+        covering = self.upper.coating_thickness + self.lower.coating_thickness
+        if not self.has_half_space and sheet.thickness >= covering:
             raise InvalidInputError(
-                "`thickness` of the sheet must be smaller than the radius of the smaller roller, "
-                f"{smaller:g} mm, got {sheet.thickness!r}: a thicker one does not follow the "
-                "rollers as a sheet does; take a thinner one."
+                "`thickness` of the sheet must be smaller than the coverings are thick, "
+                f"{covering:g} mm in all, got {sheet.thickness!r}; take a thinner one, or count "
+                "the belt or blanket as a layer of the roller that it lies on."
             )
         if isinstance(self.normal, LineLoad):
             self._check_pull(self.normal.load)

@@ -96,7 +96,7 @@ export const SOLVER_DE = {
   "solver.lower-side": "Auf der unteren Seite: {why}",
   "solver.sheet-torque": "verlangt von der Bahn etwa {wanted} N/mm, aber ihre Reibung auf der unteren Walze trägt {limit} N/mm; verringern Sie es, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-pull": "und die Züge verlangen von der {side} Walze {pull} N/mm, aber ihre Reibung an der Bahn trägt weniger als {limit} N/mm: Die Bahn rutscht durch. Verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
-  "solver.sheet-thin": "der Bahn muss kleiner sein als der Radius der kleineren Walze, {limit} mm, gegeben ist {got}: Eine dickere folgt den Walzen nicht, wie es eine Bahn tut. Nehmen Sie eine dünnere.",
+  "solver.sheet-thin": "der Bahn muss kleiner sein als die Bezüge dick sind, zusammen {limit} mm, gegeben ist {got}. Nehmen Sie eine dünnere, oder rechnen Sie das Band oder Tuch als Schicht der Walze, auf der es liegt.",
   "solver.sheet-lower": "muss dem Betrag nach kleiner sein als untere Reibung mal Last, {limit} N/mm (darüber gleitet die Bahn auf der unteren Walze), gegeben ist {got}. Verringern Sie den Wert, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-upper": "muss zusammen mit dem Zug an der Bahn (Zug am Einlauf minus Zug am Auslauf) dem Betrag nach unter oberer Reibung mal Last bleiben, {limit} N/mm (darüber gleitet die Bahn auf der oberen Walze), gegeben sind zusammen {got}. Verringern Sie den Zug oder die Zugkraft, oder erhöhen Sie Last oder Reibung.",
   "solver.approach-radius": "muss kleiner sein als der Radius der kleineren Walze, {limit} mm, gegeben ist {got}.",

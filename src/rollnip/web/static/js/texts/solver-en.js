@@ -96,7 +96,7 @@ export const SOLVER_EN = {
   "solver.lower-side": "On the lower side: {why}",
   "solver.sheet-torque": "asks the sheet for some {wanted} N/mm, but its friction on the lower roller carries {limit} N/mm; lower it, or raise the load or the friction.",
   "solver.sheet-pull": "and the tensions ask the {side} roller for {pull} N/mm, but its friction on the sheet carries less than {limit} N/mm: the sheet slips through; lower them, or raise the load or the friction.",
-  "solver.sheet-thin": "of the sheet must be smaller than the radius of the smaller roller, {limit} mm, got {got}: a thicker one does not follow the rollers as a sheet does; take a thinner one.",
+  "solver.sheet-thin": "of the sheet must be smaller than the coverings are thick, {limit} mm in all, got {got}; take a thinner one, or count the belt or blanket as a layer of the roller that it lies on.",
   "solver.sheet-lower": "must be smaller than the lower friction * load = {limit} N/mm in size (beyond it the sheet slides on the lower roller), got {got}; lower it, or raise the load or the friction.",
   "solver.sheet-upper": "must, added to the pull on the sheet (`tension_in` - `tension_out`), stay below the upper friction * load = {limit} N/mm in size (beyond it the sheet slides on the upper roller), got {got} in all; lower the pull or the traction, or raise the load or the friction.",
   "solver.approach-radius": "must be smaller than the radius {limit} mm, got {got}.",

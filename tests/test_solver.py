@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from dataclasses import replace
+from math import copysign
 from textwrap import dedent
 
 import numpy as np
@@ -88,6 +89,14 @@ def test_a_cache_of_another_kind_is_refused():
         solve(NIP, cache=5)
 
 
+COVERED = rn.Nip(
+    upper=rn.Roller(radius=50.0, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, poisson=0.5))]),
+    lower=rn.Roller(radius=25.0, layers=[rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5))]),
+    normal=rn.LineLoad(1.78),
+    friction=0.3,
+)
+
+
 def test_what_to_do_on_failure_is_one_of_two():
     with pytest.raises(rn.InvalidInputError, match=r"^`on_failure` must be .* got 'x'\.$"):
         solve(NIP, on_failure="x")
@@ -117,6 +126,30 @@ def test_a_traction_beyond_friction_is_refused_under_a_given_approach(name, shar
     control = rn.Traction(traction) if name == "traction" else rn.Torque(-25.0 * traction)
     with pytest.raises(rn.InvalidInputError, match=rf"^`{name}` asks for a traction of"):
         solve(replace(nip, tangential=control), linear)
+
+
+@pytest.mark.parametrize(
+    ("normal", "geometry"),
+    [
+        (rn.LineLoad(1.78), "linear"),
+        (rn.LineLoad(1.78), "curved"),
+        (rn.LineLoad(1.78), "finite"),
+        (rn.Approach(0.25), "linear"),
+        (rn.Approach(0.25), "curved"),
+    ],
+)
+@pytest.mark.parametrize("share", [-0.99, 0.97, 0.99])
+def test_a_torque_just_within_friction_gives_the_nip_of_its_traction(normal, geometry, share):
+    """The pressure's moment asks for more than friction carries before the shear has grown."""
+    model, tolerance = Model(geometry=geometry), 1e-3
+    nip = replace(COVERED, normal=normal)
+    load = solve(replace(nip, tangential=rn.Creepage(copysign(1.0, share))), model).load
+    pulled = solve(replace(nip, tangential=rn.Traction(share * 0.3 * load)), model)
+    assert pulled.converged
+    turned = solve(replace(nip, tangential=rn.Torque(pulled.torque_lower)), model)
+    assert turned.converged
+    assert turned.traction == pytest.approx(pulled.traction, abs=tolerance * 0.3 * load)
+    assert turned.torque_lower == pytest.approx(pulled.torque_lower, rel=tolerance)
 
 
 def test_a_torque_that_the_pressure_balances_is_none_beyond_friction():

@@ -259,8 +259,8 @@ class Nip:
         if not self.has_half_space and sheet.thickness >= covering:
             raise InvalidInputError(
                 "`thickness` of the sheet must be smaller than the coverings are thick, "
-                f"{covering:g} mm in all, got {sheet.thickness!r}: the sheet is taken as thin; "
-                "take a thinner one, or thicker coverings."
+                f"{covering:g} mm in all, got {sheet.thickness!r}; take a thinner one, or count "
+                "the belt or blanket as a layer of the roller that it lies on."
             )
         if isinstance(self.normal, LineLoad):
             self._check_pull(self.normal.load)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import pairwise
-from math import inf, sqrt
+from math import inf, pi, sqrt
 from typing import Literal
 
 import numpy as np
@@ -25,6 +25,7 @@ _MOST_SAMPLES = 2**18
 _ROUNDING = 1e-9  # of the length of a profile
 _LARGEST_LENGTH = 1e7  # mm; ten kilometres: beyond it a unit was mistaken
 _SMALLEST_THICKNESS = 1e-9  # mm; a hundredth of an atom
+_GRAVITY = 9.80665e-9  # N per (kg/m3) mm3
 _LEAST_CORE = 1e-3  # of the radius: on a thinner one the ring is lost in rounding
 
 
@@ -227,6 +228,14 @@ class Roller:
     def curvature(self) -> float:
         """1/radius [1/mm]; 0 for a plane."""
         return 0.0 if self.radius == inf else 1.0 / self.radius
+
+    @property
+    def core_weight(self) -> float:
+        """Weight of the core per length [N/mm]; 0 where its shaft has no density."""
+        if self.shaft is None or self.shaft.density is None or self.radius == inf:
+            return 0.0
+        core = 2.0 * (self.radius - self.coating_thickness)
+        return _GRAVITY * self.shaft.density * pi / 4.0 * (core**2 - self.shaft.bore**2)
 
     @property
     def is_rigid(self) -> bool:

@@ -261,7 +261,7 @@ def _how_far(failure: IterationFailure) -> str:
 
 def _require_grip(final: MeshSolution) -> None:
     """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
-    nip, wanted = final.nip, final.problem.control.traction
+    nip, wanted = final.nip, final.wanted_traction
     if wanted is None or final.has_grip:
         return
     is_known = isinstance(nip.normal, LineLoad) and not isinstance(nip.tangential, Torque)
@@ -280,7 +280,7 @@ def _require_less_than_sliding(
     traction by the moment of the pressure alone, for which theirs stands; for finite strain they
     slide in "curved".
     """
-    wanted = final.problem.control.traction
+    wanted = final.wanted_traction
     assert wanted is not None  # `_may_spin`
     sliding = replace(nip, tangential=Creepage(copysign(_SLIDING, wanted)))
     simple = replace(model, geometry="curved") if model.geometry in FINITE else model
@@ -323,8 +323,8 @@ def _first_failure(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
     geometry = final.geometry
     if not final.settled and _may_spin(final):
         return False, (
-            "Contact, stick and slip did not settle: the nip may need a traction of about "
-            f"{final.problem.control.traction:.4g} N/mm, but friction carries at most "
+            "Contact, stick and slip did not settle: the nip needs a traction of about "
+            f"{final.wanted_traction:.4g} N/mm, and friction carries about "
             f"{final.nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the "
             "traction or torque, or raise the load or the friction."
         )
@@ -363,7 +363,7 @@ def _first_failure(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
 
 def _may_spin(final: MeshSolution) -> bool:
     """Return whether a round that has not settled needs as much traction as friction can carry."""
-    wanted = final.problem.control.traction
+    wanted = final.wanted_traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= final.nip.friction * load > 0.0
 

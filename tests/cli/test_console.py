@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from typer.main import get_command
+from typer.testing import CliRunner
 
 import rollnip.cli
 from rollnip.cli.app import app
@@ -193,3 +194,24 @@ def test_no_command_takes_private_names_of_another_file_or_imports_in_a_circle()
     for name, text in sources.items():
         if name not in ("__init__", "app"):
             assert "rollnip.cli.app" not in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("solve", ""), "an argument is empty; give the name of a file"),
+        (("feed", ""), "an argument is empty"),
+        (("sweep", "status", ""), "an argument is empty"),
+        (("lda", "simulate", "case.toml", "--out", ""), "`--out` is empty; give it a value"),
+        (("solve", "case.toml", "--out="), "`--out` is empty"),
+        (("find", "case.toml", "", "--for", "nip_width=1"), "an argument is empty"),
+    ],
+)
+def test_an_empty_argument_is_refused_by_every_command(arguments, said, tmp_path, monkeypatch):
+    """As of an unset shell variable; as a path it would mean the working directory."""
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, arguments)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"rollnip: {said}")
+    assert done.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())

@@ -4,6 +4,7 @@ import json
 import tomllib
 from pathlib import Path
 
+import pytest
 from typer.testing import CliRunner
 
 from rollnip.cli.app import app
@@ -64,3 +65,19 @@ def test_the_file_is_named_once(tmp_path):
     assert found.exit_code == 2
     assert found.stderr.count(str(file)) == 1
     assert "with a strain" in found.stderr
+
+
+@pytest.mark.parametrize(
+    ("head", "row", "said"),
+    [
+        ("stretch", "-1.2,0.3", 'line 4: "stretch" must be positive and finite, got -1.2.'),
+        ("strain [%]", "-300,0.3", 'line 4: the stretch, 1 + "strain", must be positive'),
+        ("stretch", "1.2,1e99", 'line 4: "stress" must be at most 1e+12 MPa'),
+    ],
+)
+def test_a_row_that_no_rubber_has_is_told_by_its_line(tmp_path, head, row, said):
+    file = tmp_path / "tests.csv"
+    file.write_text(f"# tension\n{head},stress [MPa]\n1.1,0.1\n{row}\n", encoding="utf-8")
+    result = run(file, "--test", "tension")
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"rollnip: {file}, {said}")

@@ -472,7 +472,7 @@ def test_torques_and_losses_are_as_well_known_as_claimed(crowned):
     loss = float(crowned.friction_loss.max())
     wrong = abs(crowned.friction_loss[i] - fresh.dissipation_friction)
     assert wrong / loss < 0.02  # beside the error of the table there is that of the local radius
-    assert 0.0 < crowned.error["loss"] < 0.02
+    assert 0.0 < crowned.error["loss"] < 0.1
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ import rollnip as rn
 from rollnip.face import CoveringTable, Face
 from rollnip.face.design import with_crown
 from rollnip.face.impression import Impression
-from rollnip.shafts import Crown, Shaft
+from rollnip.shafts import Crown, CrownTable, Shaft
 
 
 @pytest.fixture(scope="module")
@@ -155,6 +155,23 @@ def test_an_impression_is_read_back(straight):
         assert one.high - one.low < 0.4 * abs(value), name
     assert reading.freedom == 8
     assert reading.warnings == ()
+
+
+def test_an_impression_keeps_the_end_loads_and_the_crown_of_its_face(rows):
+    """Uneven ends, a table as crown, weight: what is not asked for is as the face says."""
+    y = np.linspace(-800.0, 800.0, 33)
+    table = CrownTable(y, 0.3 * (1.0 - (y / 800.0) ** 4))
+    nip = replace(press(crown=table, density=7850.0), normal=rn.LineLoad(1.0))
+    face = Face(length=1600.0, end_loads=(4400.0, 5000.0))
+    true = solve_face(nip, face, rows=rows)
+    at = true.y[::8]
+    seen = Impression(at, true.nip_width[::8], 0.03)
+    modulus = read_impressions(nip, face, [seen], ("modulus",), rows=rows)
+    assert modulus["modulus"].value == pytest.approx(1.0, rel=1e-6)
+    assert modulus.solutions[0].mean_load == pytest.approx(true.mean_load, rel=1e-9)
+    uneven = read_impressions(nip, face, [seen], ("load", "tilt"), rows=rows)
+    assert uneven["load"].value == pytest.approx(true.mean_load, rel=1e-6)
+    assert uneven["tilt"].value == pytest.approx(600.0, rel=1e-5)
 
 
 @pytest.mark.slow

@@ -4,7 +4,7 @@ import json
 import tomllib
 from dataclasses import replace
 from io import StringIO
-from math import inf, isnan
+from math import inf, isnan, pi
 from pathlib import Path
 
 import pytest
@@ -70,6 +70,16 @@ def test_end_loads_take_the_place_of_the_load():
     case = parse_case(text)
     assert case.face.end_loads == (4800.0, 5000.0)
     assert case.nip.normal.load == pytest.approx(9800.0 / 1600.0)
+
+
+def test_the_mean_load_of_end_loads_holds_the_weight_of_the_core():
+    """The cross-section of such a case is that at the mean load of its face."""
+    text = TEXT.replace('load = "6 N/mm" ', "# ").replace(
+        'length = "1600 mm"', 'length = "1600 mm"\nend_loads = [4800, 5000]\nnip_angle = "60 deg"'
+    )
+    case = parse_case(text.replace("[upper.shaft]", '[upper.shaft]\ndensity = "7850 kg/m3"'))
+    weight = 7850e-9 * 9.80665 * pi / 4.0 * (176.0**2 - 100.0**2)
+    assert case.nip.normal.load == pytest.approx(9800.0 / 1600.0 + 0.5 * weight)
 
 
 @pytest.mark.parametrize(

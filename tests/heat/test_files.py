@@ -255,6 +255,10 @@ def test_a_branch_on_the_command_line(case_file):
     [
         (("--follow", "width=3 mm"), "`--follow` must be"),
         (("--follow", "speed=9 m/s:2 m/s"), "`--follow` must begin above 0 and below its end"),
+        (
+            ("--follow", "speed=1e-9 m/s:2 m/s"),
+            "makes none where the branch begins; begin at more, or give it viscoelastic layers",
+        ),
         (("--follow", "speed=20 N"), "--follow: must be a speed"),
         (("--duration", "2 mm"), "--duration: must be a time"),
         (("--duration", "-2 h"), "`--duration` must be positive, got -2 h."),

@@ -34,6 +34,22 @@ def test_it_takes_no_more_than_forty_nips(warm):
     assert warm.solves <= 40
 
 
+def test_sub_layers_are_counted_where_the_last_ones_stand(monkeypatch):
+    """The finest sub-layers were solved on, but the count and the warnings were of those before."""
+    monkeypatch.setattr("rollnip.heat.steady._ROUNDS", 1)
+    found = rn.solve_heat(press(SHIFTED, load=5.0), cooled(), PLAIN)
+    assert found.sublayers == len(found.warm.nip.upper.layers)
+
+
+@pytest.mark.slow
+def test_temperatures_are_as_well_known_as_stated():
+    """Against 48.634 degC at a tolerance of 1e-4; finer sub-layers moved it by half as much."""
+    found = rn.solve_heat(
+        press(lossy(shift=rn.Arrhenius(60.0, 23.0)), load=40.0, speed=2000.0), cooled(), PLAIN
+    )
+    assert abs(found.upper.hot_spot - 48.634) < found.error["temperature"] < 0.1
+
+
 def test_the_warm_nip_makes_the_heat_that_keeps_it_warm(warm):
     left = warm.state.new - warm.state.temperatures
     assert np.abs(left).max() <= 1e-3 * warm.state.hottest

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rollnip import RollnipError
-from rollnip.io import write_result
-from rollnip.io.netcdf import write_netcdf
+from rollnip.io import result_dict, write_result
+from rollnip.io.netcdf import result_groups, write_netcdf
 
 resource = pytest.importorskip("resource")  # POSIX only
 xr = pytest.importorskip("xarray")
@@ -73,3 +73,28 @@ def test_a_result_follows_the_cf_conventions(solution, tmp_path):
             assert "units" in one.attrs or one.dtype.kind not in "if", name
         for name in found.coords:
             assert "_FillValue" not in found[name].encoding, name
+
+
+def test_a_warm_up_and_a_branch_lose_nothing(solution):
+    """Their groups hold what the JSON holds, list by list and number by number."""
+    side = {"hot_spot": [23.0, 40.0], "surface": [23.0, 30.0], "bond": None}
+    point = {"value": 2.0, "rise": 9.0, "hot_spot": 40.0, "bond_upper": 30.0}
+    point |= {"bond_lower": None, "power": 5.0, "stable": False}
+    tree = result_dict(solution) | {
+        "warm_up": {"converged": True, "status": "warm", "half_time": None, "error": 0.01}
+        | {"time": [0.0, 9.0], "power": [5.0, 6.0], "upper": side, "lower": side},
+        "branch": {"parameter": "speed", "unit": "mm/s", "status": "runs away", "reached": False}
+        | {"turning": point, "points": [point, point | {"value": 3.0}], "solves": 7},
+    }
+    groups = result_groups(tree)
+    course, branch = groups["warm_up"], groups["branch"]
+    assert (course.attrs["converged"], course.attrs["error"]) == (1, 0.01)
+    assert np.isnan(course.attrs["half_time"])
+    assert course["surface_lower"].values.tolist() == side["surface"]
+    assert (branch.attrs["reached"], branch.attrs["solves"]) == (0, 7)
+    assert branch.attrs["turning"] == branch.attrs["turning_value"] == 2.0
+    assert branch.attrs["turning_stable"] == 0
+    assert np.isnan(branch.attrs["turning_bond_lower"])
+    assert branch["bond_upper"].values.tolist() == [30.0, 30.0]
+    assert np.isnan(branch["bond_lower"]).all()
+    assert branch["value"].values.tolist() == [2.0, 3.0]

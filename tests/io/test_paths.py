@@ -135,3 +135,9 @@ def test_what_changed_may_share_the_rest_but_never_the_change() -> None:
     assert shared == own != before == CASE
     assert shared["lower"] is CASE["lower"]
     assert own["lower"] is not CASE["lower"]
+
+
+def test_a_misspelt_step_of_a_path_is_asked_about():
+    with pytest.raises(InvalidInputError) as caught:
+        dimension_at(CASE, "nip.lod")
+    assert str(caught.value).endswith('nip has no "lod"; did you mean "load"?')

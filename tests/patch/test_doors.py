@@ -141,6 +141,27 @@ def test_the_tree_holds_every_figure_and_field(solved):
     assert "fields" not in patch_dict(solved)
 
 
+@pytest.mark.parametrize(
+    ("key", "said"),
+    [
+        ("gird", 'patch.gird: is not a known key; did you mean "grid"?'),
+        ("spni", 'did you mean "spin" in [nip]?'),
+        ("lateral_crepage", 'did you mean "lateral_creepage" in [nip]?'),
+        ("radus", 'did you mean "radius" in [upper] or [lower]?'),
+        ("load", "patch.load: is not a known key here; it belongs to [nip]."),
+    ],
+)
+def test_a_key_that_no_patch_has_is_told_the_nearest(key, said):
+    with pytest.raises(CaseFileError) as refused:
+        parse_patch_case(WHEEL.replace("[patch]\n", f"[patch]\n{key} = 3\n"))
+    assert said in str(refused.value)
+
+
+def test_a_misspelt_table_of_a_patch_is_told_its_name():
+    with pytest.raises(CaseFileError, match=r'pach: is not a known key; did you mean "patch"\?'):
+        rn.io.parse_case(WHEEL.replace("[patch]", "[pach]"))
+
+
 def test_the_case_of_a_result_gives_the_same_result(solved):
     tree = patch_dict(solved)
     case = parse_patch_case(tree["case"])
@@ -211,6 +232,10 @@ def test_files_hold_the_fields(solved, tmp_path, ending):
         assert read["pressure"].dims == ("y", "x")
         assert read["shear_x"].attrs["units"] == "MPa"
         assert float(read["load"]) == pytest.approx(200.0)
+        assert read["load"].attrs["units"] == "N"
+        assert float(read["patch_length"]) == float(read["nip_width"]) == solved.length
+        assert "error_load" in read
+        assert "patch_error_load" in read
         assert read.attrs["status"] == solved.status
         assert (read.attrs["schema"], read.attrs["geometry"]) == (1, "linear")
         assert read.attrs["solver_rectangles"].tolist() == [16, 16]

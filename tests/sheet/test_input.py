@@ -220,7 +220,7 @@ def test_stiffness_that_shows_and_cannot_be_counted_leaves_a_nip_unverified(monk
     monkeypatch.setattr("rollnip.sheet.solve.solve_plate", lambda *_: None)
     nip = nip_with(replace(rn.Sheet.usual("board"), tension_in=0.05))
     solution = rn.solve(nip, rn.Model(geometry="linear"))
-    said = "No solution with the sheet's bending stiffness could be verified."
+    said = "No solution with the sheet's bending stiffness was found."
     assert said in solution.warnings
     assert not solution.converged
     assert solution.status == said

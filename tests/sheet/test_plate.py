@@ -19,6 +19,7 @@ from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.secant import SecantSteps
 
 HERE = Path(__file__).parents[1]
+EXAMPLES = HERE.parent / "examples"
 STORED = json.loads((HERE / "data" / "plate_direct.json").read_text(encoding="utf-8"))
 LINEAR = rn.Model(geometry="linear")
 BOARD = replace(rn.Sheet.usual("board"), bending=True)
@@ -467,3 +468,16 @@ def test_nodes_crowd_opposite_the_edges_of_a_contact_on_a_bare_roller():
     solution = rn.solve(case.nip, rn.Model(geometry="finite"))
     assert solution.converged
     assert solution.solver.elements < 100
+
+
+def test_no_tolerance_decides_whether_a_sheet_bends():
+    nip = rn.read_case(EXAMPLES / "sheet-feed-nip.toml").nip
+    coarse, usual, finer = (rn.solve(nip, rn.Model(tolerance=one)) for one in (1e-2, 1e-3, 3e-4))
+    assert [one.model.tolerance for one in (coarse, usual, finer)] == [1e-2, 1e-3, 3e-4]
+    assert coarse.converged
+    assert usual.converged
+    assert not finer.converged
+    assert "Ask for a tolerance of 0.001 or more" in finer.status
+    assert (usual.sheet.bends, finer.sheet.bends) == (True, True)
+    for key in ("approach", "creepage", "nip_width", "peak_pressure"):
+        assert abs(getattr(usual, key) - getattr(finer, key)) <= usual.error[key], key

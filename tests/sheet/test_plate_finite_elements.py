@@ -124,3 +124,16 @@ def test_the_elements_themselves_lose_what_is_put_in():
     for case in CASES.values():
         if case["friction_power"] > 1e-4:
             assert case["power_in"] == pytest.approx(case["friction_power"], rel=2e-3)
+
+
+def test_a_sheet_that_is_thick_against_its_contact_is_warned_of():
+    case = CASES["board between two coverings"]
+    thin, thick = (
+        solved({**case, "plate": {**case["plate"], "thickness": one, "modulus": 20.0}})
+        for one in (1.0, 4.0)
+    )
+    assert not any("times as thick" in line for line in thin.warnings)
+    ratio = 4.0 / min(thick.nip_width, thick.sheet.nip_width_lower)
+    said = f"{ratio:.2g} times as thick as its narrower contact"
+    assert ratio > 0.5
+    assert any(said in line for line in thick.warnings)

@@ -144,3 +144,15 @@ def test_a_torque_of_second_order_claims_how_far_it_is_off_its_moment():
     missed = nip.lower.radius * abs(apart(solution)[1])
     assert missed > 0.2 * solution.dissipation_viscous * nip.lower.radius / nip.speed
     assert solution.error["torque_lower"] > 0.999 * missed
+
+
+@pytest.mark.parametrize("bending", [True, False])
+@pytest.mark.parametrize("share", [-0.998, 0.998])
+def test_a_torque_just_within_friction_gives_the_nip_of_its_traction(share, bending):
+    """The pressure's moment asks for more than friction carries before the shears have grown."""
+    nip = nip_with(paper(), friction=0.3, tangential=rn.Traction(share * 0.3 * 1.78))
+    pulled = solved(nip, "linear", bending=bending)
+    turned = solved(
+        replace(nip, tangential=rn.Torque(pulled.torque_lower)), "linear", bending=bending
+    )
+    assert turned.traction == pytest.approx(pulled.traction, rel=1e-4)

@@ -90,6 +90,13 @@ def test_bad_input_is_told_at_its_key(patch_case, path, value, at):
     assert at in str(refused.value)
 
 
+@pytest.mark.parametrize("route", ["patch", "solve"])
+def test_what_the_solver_refuses_is_told_at_its_key(post, patch_case, route):
+    patch_case["patch"]["grid"] = [4, 4]
+    (detail,) = post(route, patch_case, status=422)["details"]
+    assert detail["path"] == "patch.grid"
+
+
 def test_more_layers_than_the_limit_are_refused(patch_case):
     patch_case["upper"]["layers"] *= 3
     with pytest.raises(CaseFileError, match=r"upper\.layers: must be at most 2 here, got 3"):

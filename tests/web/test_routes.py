@@ -33,6 +33,23 @@ def test_solve_is_the_json_of_the_command(client, case):
     assert answer.headers["x-rollnip-case"] == case_hash(parse_case(case))
 
 
+@pytest.mark.parametrize(
+    ("change", "path"),
+    [
+        ({"traction": "0 N/mm", "load": "9 kN/mm"}, "nip.load"),
+        ({"traction": None, "torque_lower": "500 N"}, "nip.torque_lower"),
+        ({"load": None, "approach": "0.2 mm", "traction": "9 N/mm"}, "nip.traction"),
+    ],
+)
+def test_what_the_solver_refuses_is_told_at_its_key(post, case, change, path):
+    given = case["nip"] | change
+    case["nip"] = {key: value for key, value in given.items() if value is not None}
+    answer = post("solve", case, 422)
+    (detail,) = answer["details"]
+    assert detail["path"] == path
+    assert answer["error"] == f"{path}: {detail['message']}"
+
+
 def test_solve_without_interfaces_leaves_out_that_key_alone(client, case):
     whole = client.post("/api/solve", json=case).json()
     rest = client.post("/api/solve?interfaces=false", json=case).json()

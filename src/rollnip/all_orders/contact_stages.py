@@ -269,5 +269,6 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
                 _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
                 zones_known=True,
                 follows_correction=not is_crowded,
+                may_be_last=not is_coarse,
             )
     return replace(latest if found is None else found.solution, settled=found is not None)

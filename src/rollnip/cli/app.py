@@ -9,7 +9,14 @@ import typer
 from typer.core import TyperGroup
 
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, overridden, say, write
+from rollnip.cli.console import (
+    clear_failures,
+    named,
+    overridden,
+    require_no_empty,
+    say,
+    write,
+)
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.face import face
@@ -43,8 +50,14 @@ _ORDER = (
 )
 
 
-class _MostUsedFirst(TyperGroup):
-    """Lists what most users want before the rest, whatever was registered first."""
+class _Commands(TyperGroup):
+    """Lists what most users want before the rest, and refuses empty arguments of all commands."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Return the arguments that are left; leave with one message where one is empty."""
+        with clear_failures():
+            require_no_empty(args)
+        return super().parse_args(ctx, args)
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Return the names of the commands in the order of the help."""
@@ -53,7 +66,7 @@ class _MostUsedFirst(TyperGroup):
 
 app = typer.Typer(
     name="rollnip",
-    cls=_MostUsedFirst,
+    cls=_Commands,
     help="Rolling contact of cylinders coated with layered, viscoelastic rubber.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

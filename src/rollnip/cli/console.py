@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO, cast
@@ -48,6 +48,22 @@ def clear_failures() -> Iterator[None]:
     except OSError as error:
         silence(sys.stdout)
         leave(f"cannot write to the standard output: {error.strerror or error}.", 2)
+
+
+def require_no_empty(arguments: Sequence[str]) -> None:
+    """Raise InvalidInputError where an argument is an empty text, as of an unset shell variable.
+
+    An empty path would mean the working directory.
+    """
+    for before, argument in zip(("", *arguments), arguments, strict=False):
+        option = argument[:-1] if argument[:1] == "-" and argument[-1:] == "=" else before
+        if argument and option is before:
+            continue
+        if option.startswith("--"):
+            raise InvalidInputError(f"`{option}` is empty; give it a value, or leave it out.")
+        raise InvalidInputError(
+            'an argument is empty; give the name of a file, such as "nip.toml".'
+        )
 
 
 def look_at(file: str) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rollnip.face.covering import CoveringAxis, nips_of, with_covering
 from rollnip.face.law import NAMES, NipLaw, Places
 from rollnip.face.rows import NipRows, Place
+from rollnip.face.solve import Balance
 from rollnip.face.table import Progress, Work
 from rollnip.nip import Nip
 
@@ -35,8 +36,7 @@ def with_errors(
 
     They are relative errors of approach, nip width and peak pressure; "traction" is relative to
     friction * load; "torque", of both axles, to radius * friction * load (without friction: half
-    the nip width times the load); "loss" to the largest loss per load among the nips that were
-    solved.
+    the nip width times the load). "loss" is the error of a loss over the load [mm/s].
     """
     work = Work(law.model, rows, progress, executor)
     nip = nips_of(law.nip, law.axes)[0]
@@ -82,7 +82,6 @@ def _worst(
     first = np.zeros((1, len(next(iter(law.table.values())))))
     first[0, 0] = 1.0
     here = Places(first, np.ones(1)) if at is None else at
-    most = 1e-300
     for load, s in places:
         log_load, slip = np.array([np.log(load)]), np.array([s])
         if work.fault(nip, (load, s)) or law.is_guess(log_load, slip)[0]:
@@ -100,13 +99,27 @@ def _worst(
             curvature = getattr(law.nip, side).curvature if law.s.size > 1 else 1.0
             wrong = off[f"torque_{side}"] * curvature / (arm * load)
             found["torque"] = max(found.get("torque", 0.0), abs(np.nan_to_num(wrong)))
-        lost = [np.nan_to_num(fresh[f"{one}_loss"]) / load for one in ("friction", "viscous")]
-        gone = [np.nan_to_num(off[f"{one}_loss"]) / load for one in ("friction", "viscous")]
-        most = max(most, sum(lost))
-        found["loss"] = max(abs(one) for one in gone)
+        lost = (np.nan_to_num(off[f"{one}_loss"]) / load for one in ("friction", "viscous"))
+        found["loss"] = max(abs(one) for one in lost)
         for name, value in found.items():
             error[name] = max(error[name], float(abs(value)))
-    return error | {"loss": error["loss"] / most if error["loss"] else 0.0}
+    return error
+
+
+def error_of_losses(law: NipLaw, found: Balance) -> float:
+    """Return the error of the losses along a face, over the largest of them.
+
+    It is at most 1, at which the losses are not known at all. The table of the law may reach far
+    beyond the slip of the face, to nips that lose many times as much; these do not count.
+    """
+    section = found.section
+    losses = sum(
+        np.nan_to_num(law.figure(name, section.log_load, section.s, found.places))
+        for name in ("friction_loss", "viscous_loss")
+    )
+    carries = section.load > 0.0
+    wrong = law.error["loss"] * float(np.max(section.load))
+    return wrong / max(float(np.max(losses, where=carries, initial=0.0)), wrong) if wrong else 0.0
 
 
 def _error_of_axis(law: NipLaw, axis: CoveringAxis, work: Work) -> float:

@@ -16,7 +16,7 @@ from rollnip._errors import (
     require_instance,
     require_positive,
 )
-from rollnip.face.checks import REPORTED, with_errors
+from rollnip.face.checks import REPORTED, error_of_losses, with_errors
 from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
@@ -124,7 +124,11 @@ def solve_face(
         law, found = maker.covered(law)
         if face.ends != "plane":
             problem, law, found = _with_ends(maker, law, found)
-        error = {**law.error, "places": _error_of_places(problem, law, found)}
+        error = {
+            **law.error,
+            "loss": error_of_losses(law, found),
+            "places": _error_of_places(problem, law, found),
+        }
     worst = max(value for name, value in error.items() if name not in REPORTED)
     allowed = _CLAIM * model.tolerance
     converged = worst <= allowed

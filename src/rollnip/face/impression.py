@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]
 
 _ROUNDING = 1e-9  # of the length of the face
+_FEW = 3  # places of a face of which only loads and weights are asked
 _NO_CROWN = 1e-3  # mm on the diameter, less than a grinder's tolerance
 _UNTOLD = 0.5  # relative half-width of an interval, above which the data do not determine a value
 
@@ -150,7 +151,8 @@ def read_impressions(
     Parameters
     ----------
     nip, face, model : the face as assumed; its shafts determine the bending.
-    impressions : one for each load; their loads are taken as known unless "load" is unknown.
+    impressions : one for each load; their loads are taken as known unless "load" is unknown, and
+        so are the end loads of ``face``, where it has them.
     unknowns :
         "load", the mean line load, of a single impression;
         "tilt", second end load minus first [N], the same in all; "crown", of ``roller``, parabolic;
@@ -167,12 +169,13 @@ def read_impressions(
     _check(face, impressions, unknowns)
     if nip.sheet is not None:
         raise InvalidInputError("`sheet` must be left out to read an impression of the bare nip.")
-    first = _loads(nip, impressions)
+    first = _loads(nip, face, impressions)
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
         raise InvalidInputError(f"`{roller}.shaft` must be given to read an impression.")
     crown = one.shaft.crown.height if isinstance(one.shaft.crown, Crown) else 0.0
-    start = {"load": first[0], "tilt": 0.0, "crown": crown, "modulus": 1.0}
+    tilt = 0.0 if face.end_loads is None else face.end_loads[1] - face.end_loads[0]
+    start = {"load": first[0], "tilt": tilt, "crown": crown, "modulus": 1.0}
     scales = {"load": first[0], "tilt": 0.2 * first[0] * face.length, "crown": 0.1, "modulus": 1.0}
     law = _wide_law(nip, face, first, model, rows)
 
@@ -180,7 +183,8 @@ def read_impressions(
         named: dict[str, float] = dict(start)
         for unknown, value in zip(unknowns, values, strict=True):
             named[unknown] = float(value) * scales[unknown]
-        return _faces(nip, face, impressions, first, named, "load" in unknowns, roller, model, law)
+        own = with_crown(nip, roller, Crown(named["crown"])) if "crown" in unknowns else nip
+        return _faces(own, face, impressions, first, named, "load" in unknowns, model, law)
 
     def residuals(values: Array) -> Array:
         parts = [
@@ -233,11 +237,16 @@ def require_on_face(y: Array, face: Face) -> None:
         )
 
 
-def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:
+def _loads(nip: Nip, face: Face, impressions: Sequence[Impression]) -> list[float]:
+    """Return the mean line load of each impression; that of the end loads where they are given."""
     loads = []
     for impression in impressions:
         load = impression.load
-        if load is None:
+        if load is None and face.end_loads is not None:
+            total = face_problem(nip, face, _FEW).total
+            assert total is not None
+            load = total / face.length
+        elif load is None:
             if not isinstance(nip.normal, LineLoad):
                 raise InvalidInputError("`load` must be given with the impression or the nip.")
             load = nip.normal.load
@@ -263,20 +272,18 @@ def _faces(
     loads: list[float],
     named: dict[str, float],
     load_is_unknown: bool,
-    roller: Side,
     model: Model | None,
     law: NipLaw,
 ) -> list[FaceSolution]:
     """Solve the faces of all impressions with values for the unknowns.
 
-    The nip keeps its own moduli.
+    The nip has its crown, and keeps its own moduli.
     """
-    crowned = with_crown(nip, roller, Crown(named["crown"]))
     out = []
     for load, _ in zip(loads, impressions, strict=True):
         mean = named["load"] if load_is_unknown else load
-        one = replace(crowned, normal=LineLoad(mean))
-        problem = face_problem(one, replace(face, end_loads=None), 3)
+        one = replace(nip, normal=LineLoad(mean))
+        problem = face_problem(one, replace(face, end_loads=None), _FEW)
         own = problem.weights[0] * face.length
         total = mean * face.length - own
         half = 0.5 * named["tilt"]

@@ -111,6 +111,7 @@ class NipLaw:
     table : name of a figure -> (states, m, k), for the names in `NAMES`.
     error : relative errors of approach, nip width and peak pressure, and ("traction") of the
         traction over friction times load, between the nips of the table; from nips solved there.
+        For torques and losses see `checks.with_errors`.
     axes : the coverings for which it was solved; empty: the nip's own.
     parts : the largest error between loads, and that between slips.
     faults : why the loads end where they do, below and above; empty where more could be solved.

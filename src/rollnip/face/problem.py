@@ -22,7 +22,6 @@ from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 
-_GRAVITY = 9.80665e-9  # N per (kg/m3) mm3
 _LARGEST_CROWN = 0.05  # of the radius
 
 
@@ -128,7 +127,7 @@ def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> Fa
             _require_covered(roller, crowns[-1])
     upper, lower = bends
     down = cos(face.nip_angle)
-    weights = (_weight(nip.upper) * down, _weight(nip.lower) * down)
+    weights = (nip.upper.core_weight * down, nip.lower.core_weight * down)
     skew = (grid.y * face.skew) ** 2 / (2.0 * (nip.upper.radius + nip.lower.radius))
     ones = np.ones(grid.y.size)
     # Weight bends the upper roller towards the lower one, and the lower one away from it.
@@ -162,15 +161,6 @@ def _flexibility(roller: Roller, face: Face, grid: FaceGrid) -> Array:
     if roller.shaft is None:
         return np.zeros((grid.y.size, grid.y.size))
     return Beam.of(roller, roller.shaft, face.length).flexibility(grid)
-
-
-def _weight(roller: Roller) -> float:
-    """Return the weight of a core per length [N/mm]; 0 where it has no density."""
-    if roller.shaft is None or roller.shaft.density is None:
-        return 0.0
-    core = 2.0 * (roller.radius - roller.coating_thickness)
-    area = np.pi / 4.0 * (core**2 - roller.shaft.bore**2)
-    return float(_GRAVITY * roller.shaft.density * area)
 
 
 def _crown(roller: Roller, grid: FaceGrid) -> Array:

@@ -105,7 +105,8 @@ class HeatSolution:
     converged : whether the temperatures settled and the warm nip was verified.
     status : a sentence that says so, or what is wrong.
     reservations : on the warm nip, and on materials that do not follow the temperature.
-    error : "temperature" [K]: what the iteration and the sub-layers leave.
+    error : "temperature" [K]: what the iteration and the sub-layers leave, and what the errors of
+        the losses make of the rise.
     cold : the nip with everything at the ambient temperature.
     stable : whether a small disturbance dies out; None where no steady state was found.
     solves : number of nips that were solved.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from math import cos
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -109,7 +110,8 @@ class Builder:
 
     def nip(self) -> Nip | None:
         """The problem; None where any part of it was refused."""
-        rollers, controls = self.rollers(), self._controls(self.table.nip)
+        rollers = self.rollers()
+        controls = self._controls(self.table.nip, None if rollers is None else rollers[0])
         sheet = self._sheet(self.table.sheet)
         if rollers is None or controls is None or self.errors:
             return None
@@ -151,12 +153,12 @@ class Builder:
             self._material(f"materials.{name}", table)
 
     def _controls(
-        self, table: NipTable
+        self, table: NipTable, upper: Roller | None
     ) -> tuple[LineLoad | Approach, Traction | Creepage | Torque] | None:
         face = self.face()
         if face is None and self.table.face is not None:
             return None
-        normal = self._made("nip", lambda: _normal(table, face))
+        normal = self._made("nip", lambda: _normal(table, face, upper))
         tangential = self._made("nip", lambda: _tangential(table))
         return None if normal is None or tangential is None else (normal, tangential)
 
@@ -265,9 +267,11 @@ class Builder:
         return None if shift is None else self._made(f"{path}.shift", lambda: _shift(shift))
 
 
-def _normal(table: NipTable, face: Face | None) -> LineLoad | Approach:
+def _normal(table: NipTable, face: Face | None, upper: Roller | None) -> LineLoad | Approach:
+    """Return the load or the approach; with end loads, the mean load that they and weight make."""
     if face is not None and face.end_loads is not None:
-        return LineLoad(sum(face.end_loads) / face.length)
+        mean = sum(face.end_loads) / face.length
+        return LineLoad(mean if upper is None else mean + upper.core_weight * cos(face.nip_angle))
     if table.approach is not None:
         return Approach(table.approach)
     assert table.load is not None  # `wrong_controls` refuses a nip with neither

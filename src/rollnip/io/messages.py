@@ -28,6 +28,7 @@ _OTHER_NAMES = {
 }
 """Keys that are tried, the key that is meant, and what to write there."""
 _MOST_ERRORS = 20
+_ALIKE, _VERY_ALIKE = 0.66, 0.75  # share of letters that a misspelt key has right, `difflib`
 T = TypeVar("T", bound=FileTable)
 _WORDS = {
     "list_type": "a list",
@@ -185,10 +186,23 @@ def _suggestion(
     meant, how = _OTHER_NAMES.get(str(loc[-1]), ("", ""))
     if meant in names:
         return f'; give "{meant}"{how}.'
-    near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
+    if table is root:
+        names = [*names, "patch"]  # a case is one of a patch by that table alone
+    near = get_close_matches(str(loc[-1]), names, n=1, cutoff=_ALIKE)
     if near:
         return f'; did you mean "{near[0]}"?'
-    owners = [name for name, other in tables.items() if loc[-1] in other.model_fields]
+    return _in_another(str(loc[-1]), tables, root) or f" here (known: {', '.join(names)})."
+
+
+def _in_another(key: str, tables: Mapping[str, type[FileTable]], root: type[FileTable]) -> str:
+    """Say to which other table of the file an unknown key belongs or may belong; "" if to none."""
+    owners = [name for name, other in tables.items() if key in other.model_fields]
     if len(owners) == 1 and owners[0] in root.model_fields:
         return f" here; it belongs to [{owners[0]}]."
-    return f" here (known: {', '.join(names)})."
+    if owners:
+        return ""
+    known = {name: one.model_fields for name, one in tables.items() if name in root.model_fields}
+    every = sorted({field for fields in known.values() for field in fields})
+    near = get_close_matches(key, every, n=1, cutoff=_VERY_ALIKE)
+    places = [f"[{name}]" for name, fields in known.items() if near and near[0] in fields]
+    return f' here; did you mean "{near[0]}" in {" or ".join(places)}?' if near else ""

@@ -117,20 +117,32 @@ def _warm_up(rows: dict[str, Any]) -> Any:
     for side in _SIDES:
         parts = rows[side].items()
         columns |= {f"{name}_{side}": value for name, value in parts if value is not None}
-    return _rows("time", columns, {"status": rows["status"]})
+    said = _numbers(rows, "converged", "half_time", "error")
+    return _rows("time", columns, {"status": rows["status"], **said})
 
 
 def _branch(branch: dict[str, Any]) -> Any:
     from rollnip.heat.figures import PARAMETERS
 
     points = branch["points"]
-    names = ("value", "hot_spot", "rise", "power")
+    names = ("value", "hot_spot", "rise", "power", "bond_upper", "bond_lower")
     columns = {name: [point[name] for point in points] for name in names}
     columns["stable"] = [int(point["stable"]) for point in points]
     said: dict[str, Any] = {name: branch[name] for name in ("parameter", "unit", "status")}
+    said |= _numbers(branch, "reached", "solves")
     if branch["turning"] is not None:
         said["turning"] = branch["turning"]["value"]
+        said |= {f"turning_{key}": value for key, value in _numbers(branch["turning"]).items()}
     return _rows("value", columns, said, PARAMETERS[branch["parameter"]].described)
+
+
+def _numbers(tree: dict[str, Any], *names: str) -> dict[str, float | int]:
+    """Return values of a tree as attributes, all of them without names; None becomes NaN."""
+    found = {name: tree[name] for name in names or tree}
+    return {
+        name: float("nan") if one is None else int(one) if isinstance(one, bool) else one
+        for name, one in found.items()
+    }
 
 
 def _rows(

@@ -13,12 +13,13 @@ import numpy as np
 from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
 from rollnip._json import json_text
-from rollnip.figures import FIELDS, INTERFACE_FIGURES
+from rollnip.figure import Figure
+from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PLACES
 from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.patch.depth import STRESSES, PatchStress
 from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES, PATCH_PLACES
-from rollnip.patch.report import fields_of, origin_of, patch_dict
+from rollnip.patch.report import PLANE_KEYS, fields_of, origin_of, patch_dict
 from rollnip.patch.solution import PatchSolution
 from rollnip.rollers import Side
 
@@ -143,26 +144,45 @@ def _stress_dataset(solution: PatchSolution, side: Side, field: PatchStress) -> 
 
 
 def _dataset(solution: PatchSolution) -> Any:
-    """Return the fields and figures of a patch as an xarray dataset."""
+    """Return the fields and figures of a patch as an xarray dataset.
+
+    Figures that a nip has, too, have its names; those of the key "patch" begin with patch.
+    """
     import xarray
 
+    tree = patch_dict(solution)
     values = {}
     for name, field in fields_of(solution).items():
         values[name] = (("y", "x"), field, PATCH_FIELDS[name].described)
-    scalars = {}
+    for one in FIGURES.values():
+        (table, _, key), name = one.key.rpartition("."), one.name
+        described = PATCH_FIGURES[PLANE_KEYS[name]] if name in PLANE_KEYS else one
+        values[name] = _scalar((tree[table] if table else tree)[key], described.described)
+        if name in tree["error"]:
+            values[f"error_{name}"] = _scalar(tree["error"][name], _error_of(described))
     for key, figure in PATCH_FIGURES.items():
-        value, error = figure.value(solution), figure.error(solution)
-        scalars[key] = ((), nan if value is None else value, figure.described)
-        if error is not None:
-            about = {"units": figure.unit, "long_name": f"estimated error of the {figure.label}"}
-            scalars[f"{key}_error"] = ((), error, about)
+        values[f"patch_{key}"] = _scalar(tree["patch"][key], figure.described)
+        if key in tree["patch"]["error"]:
+            error = tree["patch"]["error"][key]
+            values[f"patch_error_{key}"] = _scalar(error, _error_of(figure))
+    values["contact"] = (("interval", "edge"), tree["contact"], PLACES["contact"].described)
+    edges = ("edge", ["trailing", "leading"], {"long_name": "edge of the contact"})
     return xarray.Dataset(
-        values | scalars,
+        values,
         coords={
             key: (key, getattr(solution, key), one.described) for key, one in PATCH_PLACES.items()
-        },
+        }
+        | {"edge": edges},
         attrs=_attributes(solution),
     )
+
+
+def _scalar(value: float | None, about: dict[str, str]) -> tuple[Any, ...]:
+    return ((), nan if value is None else value, about)
+
+
+def _error_of(figure: Figure) -> dict[str, str]:
+    return {"units": figure.unit, "long_name": f"estimated error of the {figure.label}"}
 
 
 def _attributes(solution: PatchSolution) -> dict[str, Any]:
@@ -177,4 +197,6 @@ def _attributes(solution: PatchSolution) -> dict[str, Any]:
         **origin,
         "case": dumps(origin["case"]),
         "warnings": "\n".join(solution.warnings),
-    } | {f"solver_{name}": value for name, value in tree["solver"].items()}
+    } | {
+        f"solver_{name}": nan if value is None else value for name, value in tree["solver"].items()
+    }

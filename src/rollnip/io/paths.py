@@ -235,4 +235,5 @@ def _unknown(part: str, known: Sequence[str], walked: str) -> str:
 
 
 def _nowhere(path: str, why: str) -> InvalidInputError:
-    return InvalidInputError(f"`{path}` is no path of this case: {why.rstrip('.?')}.")
+    end = "" if why.endswith((".", "?")) else "."
+    return InvalidInputError(f"`{path}` is no path of this case: {why}{end}")

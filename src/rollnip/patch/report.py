@@ -11,6 +11,8 @@ import numpy as np
 
 from rollnip._results.case import patch_case_tree, patch_problem_hash
 from rollnip.figure import Units
+from rollnip.figures import CLAIMED as PLANE_CLAIMED
+from rollnip.figures import FIGURES, PROFILES
 from rollnip.patch.coefficients import Array
 from rollnip.patch.depth import PatchStress
 from rollnip.patch.ends import FaceEnd
@@ -41,9 +43,16 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         "status": solution.status,
         "geometry": "linear",
         **origin_of(solution),
+        **plane_dict(solution),
         "patch": figures,
         "warnings": list(solution.warnings),
         "solver": {
+            "elements": grid.nx * grid.ny,
+            "iterations": solution.level.turns,
+            "residual": None,
+            "seconds": None,
+            "version": version("rollnip"),
+            "status": solution.status,
             "rectangles": [grid.nx, grid.ny],
             "side_x": grid.hx,
             "side_y": grid.hy,
@@ -55,6 +64,49 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         values = {name: _rows(field) for name, field in fields_of(solution).items()}
         tree["fields"] = {"x": grid.x.tolist(), "y": grid.y.tolist()} | values
     return tree
+
+
+def plane_dict(solution: PatchSolution) -> dict[str, Any]:
+    """Return the keys that results of every kind have: forces are in N, torques in N mm.
+
+    The nip width is the length of the patch along x. What a patch does not have is None; its fields
+    take the place of zones and profiles.
+    """
+    found = _plane_values(solution)
+    tree: dict[str, Any] = {}
+    for figure in FIGURES.values():
+        table, _, key = figure.key.rpartition(".")
+        (tree.setdefault(table, {}) if table else tree)[key] = found.get(figure.name)
+    tree["contact"] = [_along_rolling(solution)]
+    tree["zones"] = []
+    claimed = {key: CLAIMED.get(PLANE_KEYS.get(key, "")) for key in PLANE_CLAIMED}
+    tree["error"] = {key: one and one.error(solution) for key, one in claimed.items()}
+    tree["profiles"] = dict.fromkeys(PROFILES)
+    return tree
+
+
+def _plane_values(solution: PatchSolution) -> dict[str, float | None]:
+    """Return the figures of a nip that a patch has, by name."""
+    found: dict[str, float | None] = {
+        key: PATCH_FIGURES[own].value(solution) for key, own in PLANE_KEYS.items()
+    }
+    speed, creepage, load = solution.patch.speed, found["creepage"], solution.load
+    _, highest = np.unravel_index(int(np.argmax(solution.pressure)), solution.pressure.shape)
+    if creepage is not None:
+        found["speed_ratio"] = (1.0 + 0.5 * creepage) / (1.0 - 0.5 * creepage)
+    if speed:
+        found["dwell_time"] = solution.length / speed
+    found["peak_pressure_x"] = float(solution.x[highest])
+    found["mean_pressure"] = load / solution.area
+    found["rolling_resistance"] = solution.viscous_resistance / load
+    return found
+
+
+def _along_rolling(solution: PatchSolution) -> list[float]:
+    """Return the trailing and the leading end of the patch [mm]."""
+    (touching,) = np.nonzero((solution.pressure > 0.0).any(axis=0))
+    middle = 0.5 * float(solution.x[touching[0]] + solution.x[touching[-1]])
+    return [middle - 0.5 * solution.length, middle + 0.5 * solution.length]
 
 
 def origin_of(solution: PatchSolution) -> dict[str, Any]:
@@ -160,6 +212,20 @@ def end_lines(end: FaceEnd) -> Iterator[str]:
     for warning in end.warnings:
         yield f"note: {warning}"
 
+
+PLANE_KEYS = {
+    "load": "load",
+    "approach": "approach",
+    "traction": "traction_x",
+    "creepage": "creepage",
+    "nip_width": "length",
+    "peak_pressure": "peak_pressure",
+    "torque_upper": "torque_upper",
+    "torque_lower": "torque_lower",
+    "dissipation_friction": "dissipation_friction",
+    "dissipation_viscous": "dissipation_viscous",
+}
+"""Figures of a nip that are figures of a patch, too, and their keys there."""
 
 _ENDS = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0)
 """Places in the summary, over the longest distance."""

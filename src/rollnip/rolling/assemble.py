@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import isfinite, isnan, nan, sqrt
+from dataclasses import dataclass, replace
+from math import copysign, isfinite, isnan, nan, sqrt
 
 import numpy as np
 
@@ -36,6 +36,8 @@ class LaggedTerms:
     creep_length : (n,) added to the interval lengths that multiply xi [mm].
     creep_offset : (n,) added to the creep [mm].
     traction : traction that gives the prescribed torque [N/mm]; None where no torque is prescribed.
+        Where friction cannot carry it, half way from the last one to what friction carries.
+    beyond : what the prescribed torque asks for in addition [N/mm].
     lean : line load that the shear takes off that of the pressure, as the interface is tilted:
         int q slope dx [N/mm].
     """
@@ -45,6 +47,19 @@ class LaggedTerms:
     creep_offset: Array
     traction: float | None
     lean: float = 0.0
+    beyond: float = 0.0
+
+    @property
+    def wanted_traction(self) -> float | None:
+        """Traction that the prescribed torque asks for; None if there is none [N/mm]."""
+        return None if self.traction is None else self.traction + self.beyond
+
+    def nearer_to(self, reached: float) -> LaggedTerms:
+        """Return these terms with a traction half way from one that friction carries [N/mm]."""
+        if self.traction is None:
+            return self
+        half = 0.5 * (self.traction + reached)
+        return replace(self, traction=half, beyond=self.traction + self.beyond - half)
 
     def carried(self, old: Mesh, new: Mesh) -> LaggedTerms:
         """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
@@ -58,7 +73,8 @@ class LaggedTerms:
             clearance = np.interp(new.inner, old.inner, self.clearance)
             middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
             length, offset = (np.interp(places, middles, rate) for rate in rates)
-        return LaggedTerms(clearance, new.dx * length, new.dx * offset, self.traction, self.lean)
+        length, offset = new.dx * length, new.dx * offset
+        return LaggedTerms(clearance, length, offset, self.traction, self.lean, self.beyond)
 
     def change_from(
         self, before: LaggedTerms, contact: RollingContact, mesh: Mesh, state: ContactState
@@ -80,9 +96,10 @@ class LaggedTerms:
             float(np.abs(self.clearance - before.clearance).max()) / approach,
             strain / scale_of_creepage(state.creepage, slope),
         ]
-        if self.traction is not None and before.traction is not None:
+        wanted = self.wanted_traction
+        if wanted is not None and before.traction is not None:
             load = float(mesh.weights @ state.pressure)
-            changes.append(abs(self.traction - before.traction) / (slope * load))
+            changes.append(abs(wanted - before.traction) / (slope * load))
         return largest(*changes)
 
 
@@ -121,7 +138,7 @@ def lagged_terms(contact: RollingContact, mesh: Mesh, state: ContactState) -> La
     u_linear = mesh.linear_displacements(state)
     u = mesh.with_second(u_linear, state)
     clearance = length = offset = np.zeros(mesh.inner.size)
-    lean, traction = 0.0, None
+    lean, traction, beyond = 0.0, None, 0.0
     if geometry in ("corrected", *FINITE):
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = (
@@ -133,8 +150,10 @@ def lagged_terms(contact: RollingContact, mesh: Mesh, state: ContactState) -> La
     if contact.has_finite_strain:
         lean = _lean(nip, mesh, state, u)
     if isinstance(nip.tangential, Torque):
-        traction = _traction_for_torque(contact, mesh, state, u)
-    return LaggedTerms(clearance, length, offset, traction, lean)
+        asked = _traction_for_torque(contact, mesh, state, u)
+        traction = _within_friction(nip, mesh, state, asked)
+        beyond = asked - traction
+    return LaggedTerms(clearance, length, offset, traction, lean, beyond)
 
 
 def _stretch_terms(
@@ -177,3 +196,15 @@ def _traction_for_torque(
     lost = loss_inside("lower", nip, contact.geometry, mesh, state)
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear))
+
+
+def _within_friction(nip: Nip, mesh: Mesh, state: ContactState, asked: float) -> float:
+    """Return the traction to solve with next, where a torque asks for ``asked`` [N/mm].
+
+    What it asks for while the shear is still small may exceed what friction carries, as the moment
+    of the pressure falls when the shear grows. Beyond friction there is no solution to go on from.
+    """
+    carried = nip.friction * float(mesh.weights @ state.pressure)
+    if not abs(asked) >= carried:
+        return asked
+    return 0.5 * (float(mesh.weights @ state.shear) + copysign(carried, asked))

@@ -69,10 +69,15 @@ def solve_on_mesh(
     """
     states, lagged, steps = start
     change = 0.0
+    reached: float | None = None  # the last traction for a torque that friction carries
     for _ in range(MOST_ITERATIONS):
         problem = contact_problem(contact, mesh, lagged)
         state = method.solve(problem, states)
         steps += state.steps
+        if not state.settled and reached is not None and _is_far(reached, lagged, contact):
+            lagged = lagged.nearer_to(reached)
+            continue
+        reached = lagged.traction
         if not state.settled or contact.has_no_lagged_terms:
             break
         updated = lagged_terms(contact, mesh, state)
@@ -97,6 +102,12 @@ def solve_on_mesh(
         settled=state.settled and is_still and figures.peak_pressure > 0.0,
         geometry_change=change,
     )
+
+
+def _is_far(reached: float, lagged: LaggedTerms, contact: RollingContact) -> bool:
+    """Return whether the traction for a torque is beyond the one reached by over the tolerance."""
+    sought = lagged.traction
+    return sought is not None and abs(sought - reached) > contact.tolerance * abs(sought)
 
 
 def figures_of(

@@ -190,6 +190,12 @@ class MeshSolution:
         return tuple(slip for slip in found if slip is not None)
 
     @property
+    def wanted_traction(self) -> float | None:
+        """Traction that is prescribed, or that the prescribed torque asks for; else None [N/mm]."""
+        asked = self.lagged.wanted_traction
+        return self.problem.control.traction if asked is None else asked
+
+    @property
     def has_free_ends(self) -> bool:
         """Return whether nodes lie at the ends of its zones, unlike in a search node by node."""
         return bool(self.mesh.fine.elements)
@@ -245,7 +251,7 @@ class MeshSolution:
     @property
     def has_grip(self) -> bool:
         """Whether friction can carry the prescribed traction: |T| < mu F."""
-        wanted, load = self.problem.control.traction, self.figures.load
+        wanted, load = self.wanted_traction, self.figures.load
         if not self.geometry_change < 1.0:  # diverged lagged terms say nothing of friction
             return True
         return wanted is None or abs(wanted) < max(self.problem.friction * load, 1e-9 * load)

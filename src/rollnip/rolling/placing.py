@@ -35,6 +35,7 @@ def place_ends(
     zones_known: bool,
     settles_figures: bool = False,
     follows_correction: bool = False,
+    may_be_last: bool = False,
 ) -> SearchState | None:
     """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -50,6 +51,8 @@ def place_ends(
         them. Two meshes show how figures depend on ends, or one if the previous size has shown it.
     follows_correction : whether a correction held has moved the ends and will move them again, on
         meshes like the last one. They need not be placed then, see `_have_followed`.
+    may_be_last : whether the correction may call for no other contact. Pressure and shear beside
+        the ends must then be right, wherever the ends are.
 
     Returns
     -------
@@ -63,11 +66,16 @@ def place_ends(
     most_meshes = _most_meshes(start.contact, start.layout)
     while search.meshes < most_meshes and _can_be_placed(search.layout):
         search.solve_mesh()
-        if follows_correction and _have_followed(search):
+        if follows_correction and _have_followed(search, may_be_last=may_be_last):
             return search.result()
         # The figures show errors of ends only with the zones of the previous size.
         same_zones = settles_figures and search.layout.is_like(start.layout)
-        is_placed = _is_placed_by(search, zones_known=zones_known, same_zones=same_zones)
+        is_placed = _is_placed_by(
+            search,
+            zones_known=zones_known,
+            same_zones=same_zones,
+            checks_bound=same_zones or may_be_last,
+        )
         others = other_zones(
             search.latest,
             search.layout,
@@ -88,25 +96,33 @@ def place_ends(
     return None
 
 
-def _have_followed(search: EndSearch) -> bool:
+def _have_followed(search: EndSearch, *, may_be_last: bool) -> bool:
     """Return whether the ends on a mesh have followed a correction that may still change.
 
     All of them lie within the tolerance of where the solution puts them: a transition that is
     misplaced by more has shears beyond the bound beside it, and the correction of such shears would
-    move it again. The solution must call for no other zones.
+    move it again. The solution must call for no other zones. Beside a boundary layer or a short
+    zone that is not exact enough for the last contact (``may_be_last``).
     """
-    layout, proposed = search.layout, search.proposed
+    layout, proposed, latest = search.layout, search.proposed, search.latest
     distance = proposed.distance(layout, transitions_count=1.0)
     if not (proposed.is_proper and distance <= search.contact.tolerance):
         return False
+    if may_be_last and (_is_false_at_edge(latest) or _exceeds_bound(latest)):
+        return False
     is_placed = _are_ends_placed(search, zones_known=True)
-    return changed_states(search.latest, layout, checks_contact=is_placed) is None
+    return changed_states(latest, layout, checks_contact=is_placed) is None
 
 
-def _is_placed_by(search: EndSearch, *, zones_known: bool, same_zones: bool) -> bool:
+def _is_placed_by(
+    search: EndSearch, *, zones_known: bool, same_zones: bool, checks_bound: bool
+) -> bool:
     """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
 
-    ``same_zones``: whether figures can be compared with those of the previous size.
+    Parameters
+    ----------
+    same_zones : whether figures can be compared with those of the previous size.
+    checks_bound : whether shears beyond the bound beside transitions deny it.
     """
     contact, layout, latest = search.contact, search.layout, search.latest
     # Without friction figures hardly depend on the ends; at finite strain corrections need ends to
@@ -116,7 +132,7 @@ def _is_placed_by(search: EndSearch, *, zones_known: bool, same_zones: bool) -> 
         _are_ends_placed(search, zones_known=zones_known, by_figures=by_figures)
         and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)
         and not (by_figures and _figures_change(search))
-        and not (_is_false_at_edge(latest) or (same_zones and _exceeds_bound(latest)))
+        and not (_is_false_at_edge(latest) or (checks_bound and _exceeds_bound(latest)))
         and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)
     )
 

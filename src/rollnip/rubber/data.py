@@ -12,6 +12,8 @@ names the test of each row; without it all rows belong to one test.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, cast, get_args
@@ -27,6 +29,7 @@ Test = Literal["tension", "compression", "equibiaxial", "planar", "shear"]
 TESTS: tuple[Test, ...] = get_args(Test)
 _NAMES = ("test", "stretch", "strain", "stress")
 _LARGEST_STRESS = 1e12  # MPa, as moduli
+_OF_A_ROW = re.compile(r"`(\w+)\[(\d+)\]` (.*)", re.DOTALL)
 _FARTHEST = 1e3  # largest stretch; rubber breaks at some ten
 
 
@@ -188,7 +191,19 @@ def read_rubber(
     try:
         return RubberData(str(path), tests, values, stress)
     except InvalidInputError as error:
-        raise InvalidInputError(f"{path}: {error}") from None
+        said = _in_the_file(str(error), given[0], table.lines)
+        raise InvalidInputError(f"{path}{said}") from None
+
+
+def _in_the_file(message: str, strained: str, lines: Sequence[int]) -> str:
+    """Return what was refused of a row as the line and the column of the file."""
+    found = _OF_A_ROW.fullmatch(message)
+    if found is None:
+        return f": {message}"
+    name, row, rest = found.groups()
+    is_strain = name == "stretch" and strained == "strain"
+    what = 'the stretch, 1 + "strain",' if is_strain else f'"{name}"'
+    return f", line {lines[int(row)]}: {what} {rest}"
 
 
 def _tests(table: TableColumns, test: Test | None, path: str) -> tuple[Test, ...]:

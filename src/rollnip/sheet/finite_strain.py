@@ -26,7 +26,7 @@ from rollnip.all_orders.iteration import (
     CUT_FACTORS,
     MOST_CORRECTIONS,
     SMALL_CHANGE,
-    with_skin_tolerance,
+    with_iteration_tolerance,
 )
 from rollnip.finite import NoEquilibriumError
 from rollnip.rolling import RollingContact, stretch_excess
@@ -53,11 +53,11 @@ def solve_by_iteration(
 
     Returns
     -------
-    The contact with the last corrections and the solution with them; None where there is no
-    equilibrium, or zones or corrections do not converge.
+    The contact as asked for, with the last corrections, and the solution with them; None where
+    there is no equilibrium, or zones or corrections do not converge.
     """
-    contact = formulation.contact
-    contact = contact.with_model(with_skin_tolerance(contact.nip, contact.model))
+    asked = formulation.contact.model
+    contact = with_iteration_tolerance(formulation.contact)
     formulation = formulation.of(contact)
     coarse = _coarse(formulation)
     try:
@@ -72,7 +72,8 @@ def solve_by_iteration(
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
-            return found
+            solved, refined = found
+            return solved.with_model(asked), refined
     return None
 
 

@@ -41,6 +41,26 @@ def traction_for_torque(
     return lost - wanted - (pull - float(mesh.weights @ lower.shear))
 
 
+def within_friction(
+    problem: InterfaceProblem, state: InterfaceSolution, asked: float | None
+) -> float | None:
+    """Return the T_l to solve with next, where a torque asks for ``asked`` [N/mm].
+
+    What it asks for while the shear is still small may exceed what friction carries, as the moment
+    of the pressure falls when the shear grows. Beyond friction there is no solution to go on from;
+    the next traction is then half way from the last one to what friction carries.
+    """
+    sheet, lower = problem.nip.sheet, state.side(1)
+    if asked is None or sheet is None:
+        return asked
+    weights, pull = problem.meshes[1].weights, sheet.tension_in - sheet.tension_out
+    above, below = (mu * float(weights @ lower.pressure) for mu in problem.frictions)
+    nearest = min(max(asked, -below, -above - pull), below, above - pull)
+    if nearest == asked:
+        return asked
+    return 0.5 * (float(weights @ lower.shear) + nearest)
+
+
 def interpolated(old: Mesh, new: Mesh, clearance: Array, offset: Array) -> tuple[Array, Array]:
     """Return the lagged terms of one interface on another mesh, each (n,) [mm].
 

@@ -23,6 +23,7 @@ from rollnip.sheet.checks import (
     require_torque,
     sheet_verdict,
     simpler_geometry_reservations,
+    thick_sheet_reservations,
 )
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
@@ -44,8 +45,8 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     """Solve the steady rolling of two rollers with a sheet between them.
 
     The sheet is solved as a plate where its bending stiffness is asked for, or where it is left
-    open and the spreading length is not small against the nip width. Otherwise, or where no plate
-    solution can be verified, it is solved as a membrane.
+    open and the spreading length is not small against the nip width. Otherwise, or where it has no
+    solution as a plate, it is solved as a membrane.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         if solution is not None:
             return solution
         if bending_length(nip) > limit:  # otherwise the errors cover the tension's effect
-            text = "No solution with the sheet's bending stiffness could be verified."
+            text = "No solution with the sheet's bending stiffness was found."
             record = (version, (Reservation("no_plate", text),))
     return _solve_as_membrane(nip, model, cache, record, start)
 
@@ -109,6 +110,7 @@ def _solve_as_membrane(
             + on_geometry
             + _reservations(nip, refined)
             + curved_tension_reservations(nip, contact.model)
+            + thick_sheet_reservations(nip, final.figures.nip_width)
             + validity_reservations(final, strains)
         ),
         solver=refined.solver_info(perf_counter() - start, version),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import date, datetime, time
 from math import isfinite
@@ -15,6 +16,10 @@ from rollnip._json import json_bytes
 _PATH = re.compile(r"(materials\..{1,80}?|[^\s:]{1,120}): (.*)", re.DOTALL)
 _NAMED = re.compile(r"`([\w.]+)`")
 SOURCE = "case"
+_NIP_KEYS = {"geometry": "model.geometry", "profile": "upper.profile"} | {
+    name: f"nip.{name}" for name in ("load", "approach", "traction", "creepage", "torque_lower")
+}
+"""Keys at fault where a nip is refused while it is solved, by the names in the errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +83,20 @@ def at_its_key(error: InvalidInputError, path_of: Callable[[str], str]) -> CaseF
     name = named[1] if named else ""
     path = name if "." in name else path_of(name)
     return CaseFileError(f"{SOURCE}: {path}: {error}")
+
+
+@contextmanager
+def at_keys(places: Mapping[str, str] | None = None, otherwise: str = "nip") -> Iterator[None]:
+    """Raise what the solver refuses within the block as an error of the case, at its key.
+
+    ``places``: paths of keys by the names that errors begin with, those of a nip by default;
+    ``otherwise``: of other errors.
+    """
+    keys = _NIP_KEYS if places is None else places
+    try:
+        yield
+    except InvalidInputError as error:
+        raise at_its_key(error, lambda name: keys.get(name, otherwise)) from None
 
 
 def _placed(line: str) -> tuple[str, str]:

@@ -15,7 +15,7 @@ from rollnip.patch import solve_patch
 from rollnip.patch.report import fields_of, patch_dict
 from rollnip.patch.solution import PatchSolution
 from rollnip.rollers import Roller
-from rollnip.web.answers import SOURCE
+from rollnip.web.answers import SOURCE, at_keys
 from rollnip.web.limits import Limits
 
 Array = NDArray[np.float64]
@@ -26,6 +26,12 @@ _SHOWN = 128  # places along a side of the fields that are sent
 _FIELDS = ("pressure", "shear_x", "shear_y", "slip", "gap", "state")
 _DIGITS = 5
 _TOLERANCE = 0.01  # where the case has none
+_KEYS = {
+    "grid": "patch.grid",
+    "tolerance": "solver.tolerance",
+    "load": "nip.load",
+    "approach": "nip.approach",
+}
 
 
 def is_coarse(case: Mapping[str, Any]) -> bool:
@@ -54,7 +60,8 @@ def solved_patch(tree: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
     case = parse_patch_case(tree, source=SOURCE)
     _check(case, limits)
     tolerance = _TOLERANCE if case.tolerance is None else case.tolerance
-    solution = solve_patch(case.patch, tolerance=tolerance, grid=case.grid)
+    with at_keys(_KEYS, "patch"):
+        solution = solve_patch(case.patch, tolerance=tolerance, grid=case.grid)
     answer = patch_dict(solution, fields=False)
     answer["grids"] = [list(size) for size in solution.levels]
     return answer | {"fields": _fields(solution)}

@@ -35,7 +35,7 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 from rollnip.solver import solve
 from rollnip.sweeps import scalars
-from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, refusal
+from rollnip.web.answers import SOURCE, Reply, as_json, at_keys, error_tree, refusal
 from rollnip.web.faces import Faces
 from rollnip.web.heats import Heats
 from rollnip.web.impressions import read_impression
@@ -300,7 +300,8 @@ class Tasks:
         key = case_hash(case)
         if (kept := self._kept.get(key)) is not None:
             return kept
-        return self._kept.put(key, solve(case.nip, case.model, cache=self._kernels))
+        with at_keys():
+            return self._kept.put(key, solve(case.nip, case.model, cache=self._kernels))
 
 
 def _dimension(tree: Body, path: str) -> Dimension:

@@ -36,7 +36,7 @@ from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shorte
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import SheetIterate
-from rollnip.sheet.lagged_terms import has_no_terms, interpolated
+from rollnip.sheet.lagged_terms import has_no_terms, interpolated, within_friction
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
@@ -95,15 +95,30 @@ class MembraneSearch:
         for _ in range(_MOST_REACHES):
             problem = self._problem(MembraneZones.sticking(reach), shape, None)
             lagged = initial_terms(problem)
-            state, steps = solve_complementarity(problem, lagged, half_width), 0
+            state = solve_complementarity(problem, lagged, half_width)
             if not has_no_terms(problem.nip, "linear"):
-                lagged, steps = lagged_terms(problem, "linear", state), state.steps
-                state = solve_complementarity(problem, lagged, half_width)
+                state, lagged = self._for_torque(problem, state, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
         zones = MembraneZones.around(problem.mesh.inner, state, problem.frictions)
-        return MembraneIterate(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
+        return MembraneIterate(zones, problem, state, lagged, inf, 1.0, state.steps, False)
+
+    def _for_torque(
+        self, problem: MembraneProblem, state: MembraneState, half_width: float
+    ) -> tuple[MembraneState, MembraneTerms]:
+        """Return the solution for about the traction that a torque asks for, from one without it.
+
+        ``state.steps`` counts those of both.
+        """
+        for _ in range(_MOST_ITERATIONS):
+            asked = lagged_terms(problem, "linear", state)
+            lagged = replace(asked, traction=within_friction(problem, state, asked.traction))
+            found = solve_complementarity(problem, lagged, half_width)
+            state = replace(found, steps=state.steps + found.steps)
+            if lagged.traction == asked.traction:
+                break
+        return state, lagged
 
     def settle_zones(
         self, zones: MembraneZones, count: int, before: MembraneIterate, end_tolerance: float

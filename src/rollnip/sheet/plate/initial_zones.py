@@ -17,10 +17,11 @@ from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Torque
 from rollnip.rolling import RollingContact
 from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.sheet.lagged_terms import within_friction
 from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
 from rollnip.sheet.plate.lagged_terms import initial_terms, lagged_terms
-from rollnip.sheet.plate.system import PlateProblem, PlateTerms
+from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
 _ELEMENTS = 30  # least number for a mesh that extends beyond the contacts
@@ -31,6 +32,7 @@ _MOST_REACHES = 4
 _MARGIN = 0.15  # over the width, beyond edges that are approximately known
 _NEARER = 0.25  # reduction of the margin where the mesh contained the edges
 _INSIDE = 0.9  # of the margin: an edge that moved less counts as inside the mesh
+_MOST_TRACTIONS = 10  # on the way to a torque near what friction carries
 _BESIDE = 8  # elements beyond each approximately known edge
 
 
@@ -54,10 +56,8 @@ class InitialZones:
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
-        if isinstance(
-            self.contact.nip.tangential, Torque
-        ):  # the pressures tell which traction it takes
-            first = lagged_terms(problem, "linear", state)
+        if isinstance(self.contact.nip.tangential, Torque):  # pressures tell which traction it is
+            state, first = _for_torque(problem, state, (around, around))
         return self.closer(PlateZones.around(problem, state), first, count)
 
     def closer(self, zones: PlateZones, lagged: PlateTerms, count: int) -> PlateZones:
@@ -114,6 +114,22 @@ class InitialZones:
             fine = subdivided(nodes, elements)
             meshes.append(interface_mesh(nodes, fine, kernels, number))
         return PlateProblem.on(self.contact.nip, (meshes[0], meshes[1]))
+
+
+def _for_torque(
+    problem: PlateProblem, state: PlateState, edges: tuple[tuple[float, float], tuple[float, float]]
+) -> tuple[PlateState, PlateTerms]:
+    """Return a solution, and the terms with the traction that a torque asks for beside it.
+
+    ``state``: the solution without that traction; ``edges``: approximate ones of both contacts.
+    """
+    for _ in range(_MOST_TRACTIONS):
+        asked = lagged_terms(problem, "linear", state)
+        lagged = replace(asked, traction=within_friction(problem, state, asked.traction))
+        if lagged.traction == asked.traction:
+            break
+        state, _ = solve_complementarity(problem, lagged, edges)
+    return state, lagged
 
 
 def _breaks(

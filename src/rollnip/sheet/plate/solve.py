@@ -23,6 +23,7 @@ from rollnip.sheet.checks import (
     require_grip,
     sheet_verdict,
     simpler_geometry_reservations,
+    thick_sheet_reservations,
 )
 from rollnip.sheet.one_geometry import solve_in_geometry
 from rollnip.sheet.plate.formulation import PlateFormulation
@@ -49,8 +50,8 @@ def solve_plate(
 
     Returns
     -------
-    None where the sheet does not ask for its stiffness to be included, and no solution with it can
-    be verified.
+    Verified or not, so that a tolerance never decides whether the sheet bends. None where the sheet
+    does not ask for its stiffness to be included, and no solution with it was found.
 
     Raises
     ------
@@ -77,8 +78,7 @@ def solve_plate(
     if not asked and not refined.iterate.settled:
         return None
     require_grip(nip, refined)
-    found = _assembled(contact, refined, (reservations, perf_counter() - start, version))
-    return found if asked or found.converged else None
+    return _assembled(contact, refined, (reservations, perf_counter() - start, version))
 
 
 def membrane_limit(nip: Nip, model: Model, cache: KernelCache) -> float:
@@ -126,6 +126,8 @@ def _assembled(
     strains = _strains(both)
     reservations += compression_reservations(refined.figures, refined.errors)
     reservations += curved_tension_reservations(contact.nip, contact.model)
+    narrower = min(one.figures.nip_width for one in both)
+    reservations += thick_sheet_reservations(contact.nip, narrower)
     reservations += validity_reservations(final, strains)
     plain: Any = refined
     solution = PlateSolution(

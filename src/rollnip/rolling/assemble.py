@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import copysign, isfinite, isnan, nan, sqrt
+from math import isfinite, isnan, nan, sqrt
 
 import numpy as np
 
@@ -151,7 +151,8 @@ def lagged_terms(contact: RollingContact, mesh: Mesh, state: ContactState) -> La
         lean = _lean(nip, mesh, state, u)
     if isinstance(nip.tangential, Torque):
         asked = _traction_for_torque(contact, mesh, state, u)
-        traction = _within_friction(nip, mesh, state, asked)
+        most = nip.friction * float(mesh.weights @ state.pressure)
+        traction = within_friction(asked, float(mesh.weights @ state.shear), (-most, most))
         beyond = asked - traction
     return LaggedTerms(clearance, length, offset, traction, lean, beyond)
 
@@ -198,13 +199,14 @@ def _traction_for_torque(
     return lost - wanted - (pull - float(mesh.weights @ state.shear))
 
 
-def _within_friction(nip: Nip, mesh: Mesh, state: ContactState, asked: float) -> float:
+def within_friction(asked: float, last: float, carried: tuple[float, float]) -> float:
     """Return the traction to solve with next, where a torque asks for ``asked`` [N/mm].
 
     What it asks for while the shear is still small may exceed what friction carries, as the moment
-    of the pressure falls when the shear grows. Beyond friction there is no solution to go on from.
+    of the pressure falls when the shear grows. Beyond friction there is no solution to go on from;
+    the next traction is then half way from the ``last`` one to what friction carries.
+
+    ``carried``: the least and the largest traction that friction carries [N/mm].
     """
-    carried = nip.friction * float(mesh.weights @ state.pressure)
-    if not abs(asked) >= carried:
-        return asked
-    return 0.5 * (float(mesh.weights @ state.shear) + copysign(carried, asked))
+    least, most = carried
+    return asked if least < asked < most else 0.5 * (last + min(max(asked, least), most))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Torque, Traction
+from rollnip.rolling.assemble import within_friction
 from rollnip.rolling.surface_work import loss_inside
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.iterate import InterfaceProblem, InterfaceSolution
@@ -41,24 +42,20 @@ def traction_for_torque(
     return lost - wanted - (pull - float(mesh.weights @ lower.shear))
 
 
-def within_friction(
+def traction_within_friction(
     problem: InterfaceProblem, state: InterfaceSolution, asked: float | None
 ) -> float | None:
-    """Return the T_l to solve with next, where a torque asks for ``asked`` [N/mm].
+    """Return the T_l to solve with next, where a torque asks for ``asked``; None: it is no torque.
 
-    What it asks for while the shear is still small may exceed what friction carries, as the moment
-    of the pressure falls when the shear grows. Beyond friction there is no solution to go on from;
-    the next traction is then half way from the last one to what friction carries.
+    Both interfaces must carry it, see `rollnip.rolling.assemble.within_friction` [N/mm].
     """
     sheet, lower = problem.nip.sheet, state.side(1)
     if asked is None or sheet is None:
         return asked
     weights, pull = problem.meshes[1].weights, sheet.tension_in - sheet.tension_out
     above, below = (mu * float(weights @ lower.pressure) for mu in problem.frictions)
-    nearest = min(max(asked, -below, -above - pull), below, above - pull)
-    if nearest == asked:
-        return asked
-    return 0.5 * (float(weights @ lower.shear) + nearest)
+    carried = max(-below, -above - pull), min(below, above - pull)
+    return within_friction(asked, float(weights @ lower.shear), carried)
 
 
 def interpolated(old: Mesh, new: Mesh, clearance: Array, offset: Array) -> tuple[Array, Array]:

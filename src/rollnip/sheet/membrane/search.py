@@ -36,7 +36,7 @@ from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shorte
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
 from rollnip.sheet.iterate import SheetIterate
-from rollnip.sheet.lagged_terms import has_no_terms, interpolated, within_friction
+from rollnip.sheet.lagged_terms import has_no_terms, interpolated, traction_within_friction
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
@@ -113,7 +113,9 @@ class MembraneSearch:
         """
         for _ in range(_MOST_ITERATIONS):
             asked = lagged_terms(problem, "linear", state)
-            lagged = replace(asked, traction=within_friction(problem, state, asked.traction))
+            lagged = replace(
+                asked, traction=traction_within_friction(problem, state, asked.traction)
+            )
             found = solve_complementarity(problem, lagged, half_width)
             state = replace(found, steps=state.steps + found.steps)
             if lagged.traction == asked.traction:

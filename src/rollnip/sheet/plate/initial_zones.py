@@ -17,7 +17,7 @@ from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Torque
 from rollnip.rolling import RollingContact
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.sheet.lagged_terms import within_friction
+from rollnip.sheet.lagged_terms import traction_within_friction
 from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
 from rollnip.sheet.plate.lagged_terms import initial_terms, lagged_terms
@@ -125,7 +125,7 @@ def _for_torque(
     """
     for _ in range(_MOST_TRACTIONS):
         asked = lagged_terms(problem, "linear", state)
-        lagged = replace(asked, traction=within_friction(problem, state, asked.traction))
+        lagged = replace(asked, traction=traction_within_friction(problem, state, asked.traction))
         if lagged.traction == asked.traction:
             break
         state, _ = solve_complementarity(problem, lagged, edges)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import signal
 import subprocess
@@ -24,7 +25,7 @@ from rollnip.sweeps.version import own_version
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
 
-PLAIN = ["--no-dashboard", "--host", "127.0.0.1"]
+PLAIN = ["--no-dashboard", "--dashboard-address", "127.0.0.1:0", "--host", "127.0.0.1"]
 
 
 class Cluster:
@@ -34,10 +35,16 @@ class Cluster:
         self.file = folder / "scheduler.json"
         self.processes: list[subprocess.Popen[bytes]] = []
         self.scheduler = self.start("dask_scheduler", "--port", "0")
+
+    def address(self) -> str:
+        """Return the scheduler's address, as soon as it has written it."""
         until = time.monotonic() + 300.0
-        while not self.file.is_file() and time.monotonic() < until:
+        while time.monotonic() < until:
+            # the file is there before what is written in it
+            with contextlib.suppress(FileNotFoundError, json.JSONDecodeError):
+                return str(json.loads(self.file.read_text())["address"])
             time.sleep(0.05)
-        self.address = json.loads(self.file.read_text())["address"]
+        raise TimeoutError("the scheduler has not started within 300 s")
 
     def start(self, module: str, *options: str) -> subprocess.Popen[bytes]:
         command = [sys.executable, "-m", f"distributed.cli.{module}", *PLAIN, *options]
@@ -59,8 +66,11 @@ class Cluster:
 @pytest.fixture
 def machines(tmp_path: Path) -> Iterator[Cluster]:
     one = Cluster(tmp_path)
-    yield one
-    one.close()
+    try:
+        one.address()
+        yield one
+    finally:
+        one.close()
 
 
 @pytest.fixture
@@ -74,7 +84,7 @@ def two_workers(machines: Cluster) -> list[subprocess.Popen[bytes]]:
     from distributed import Client
 
     workers = [machines.add_worker() for _ in range(2)]
-    with Client(machines.address, set_as_default=False) as client:
+    with Client(machines.address(), set_as_default=False) as client:
         client.wait_for_workers(2, timeout=300)
     return workers
 
@@ -93,7 +103,7 @@ def test_a_worker_killed_half_way_changes_nothing(
             workers[0].send_signal(signal.SIGKILL)
 
     with Store(None, About.of(study, own_version())) as store:
-        with cluster.dask_crew(machines.address, 0) as crew:
+        with cluster.dask_crew(machines.address(), 0) as crew:
             run(OpenCases(study, store), store, crew, kill)
         assert sorted(done) == list(range(study.count))
         write_table(store, tmp_path / "dask.csv")
@@ -114,7 +124,7 @@ def test_a_lost_scheduler_is_said_and_what_was_finished_is_kept(
     with Store(None, About.of(study, "1")) as store:
         with (
             pytest.raises(RollnipError, match="what was finished is kept: run the same again"),
-            cluster.dask_crew(machines.address, 0) as crew,
+            cluster.dask_crew(machines.address(), 0) as crew,
         ):
             run(OpenCases(study, store), store, crew, kill)
         assert store.tally().get("lost", 0) == 0
@@ -127,7 +137,7 @@ def test_a_lost_scheduler_is_said_and_what_was_finished_is_kept(
 def test_a_cluster_without_workers_is_said(machines: Cluster) -> None:
     with (
         pytest.raises(RollnipError, match="the Dask scheduler has no workers"),
-        cluster.dask_crew(machines.address, 0),
+        cluster.dask_crew(machines.address(), 0),
     ):
         pass
 
@@ -147,7 +157,7 @@ def test_a_cluster_that_loses_all_workers_is_not_waited_for(
     with Store(None, About.of(study, "1")) as store:
         with (
             pytest.raises(RollnipError, match=r"tcp://.*: has had no worker for \d+ s"),
-            cluster.dask_crew(machines.address, 0) as crew,
+            cluster.dask_crew(machines.address(), 0) as crew,
         ):
             run(OpenCases(study, store), store, crew, kill)
         assert 1 <= sum(store.tally().values()) < study.count
@@ -201,7 +211,7 @@ def test_workers_of_another_version_are_refused(
     monkeypatch.setattr(cluster, "own_version", pretended)
     with (
         pytest.raises(RollnipError, match=r"worker tcp://.* has rollnip .*, this is 99\.0"),
-        cluster.dask_crew(machines.address, 0),
+        cluster.dask_crew(machines.address(), 0),
     ):
         pass
 

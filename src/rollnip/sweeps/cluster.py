@@ -24,6 +24,9 @@ PATIENCE = "30s"
 LONELY = 30.0
 """Time without any worker after which a sweep gives up [s]."""
 _LOOK = 2.0  # s, between two checks for workers
+_ANY_PORT = "127.0.0.1:0"
+"""Where the scheduler of a local cluster serves its state. Without an address it takes port 8787 on
+all interfaces, and warns where that is taken."""
 
 
 @contextmanager
@@ -58,7 +61,11 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
     start: Any = LocalCluster
     with (
         start(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None, env=ONE_THREAD
+            n_workers=workers,
+            threads_per_worker=1,
+            dashboard_address=_ANY_PORT,
+            scheduler_kwargs={"dashboard": False},
+            env=ONE_THREAD,
         ) as cluster,
         _connected(Client, cluster) as client,
     ):

@@ -99,8 +99,8 @@ class PlateZones(SideZones):
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
         A transition moves at most half of the way to its neighbours, an edge at most a 25th of the
-        width, and outwards at most the length of the zone beside it. A transition stays where
-        nothing shows its place.
+        width, and outwards at most the length of the zone beside it. A transition of which only the
+        direction is known moves as far as it may.
 
         Parameters
         ----------
@@ -115,6 +115,7 @@ class PlateZones(SideZones):
             if requested is not None:
                 proposed = np.where(np.isfinite(proposed), proposed, requested.sides[number].breaks)
             trailing, leading = side.edges
+            proposed[1:-1] = np.clip(proposed[1:-1], trailing, leading)
             most, lengths = LONGEST_MOVE * side.width, side.lengths
             first, last = float(proposed[0]), float(proposed[-1])
             # an edge beside which no pressure rises lies in tension: move it to where that ends

@@ -36,6 +36,7 @@ _LEAST = np.array(
 _WIDTH = NAMES.index("nip_width")
 _CREEPAGES = [NAMES.index(name) for name in ("creepage", "creepage_upper", "creepage_lower")]
 _BY_TRACTIONS = range(NAMES.index("traction_upper"), len(NAMES))
+_TRACTIONS = [NAMES.index("traction_upper"), NAMES.index("traction_lower")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +111,8 @@ def _errors_between(nip: Nip, history: Sequence[SizeOfMesh], side: int) -> Array
     agree by chance, so earlier changes count too, extrapolated by higher orders. The first size is
     excluded where three finer ones exist, because it finds the zones and hardly resolves short
     ones. Figures of one kind may agree by chance as well, so each is given the largest error of its
-    kind. No error is smaller than the least error of such meshes found in random nips.
+    kind; the two tractions differ by the given tensions alone, so they have the same error. No
+    error is smaller than the least error of such meshes found in random nips.
     """
     history = history[1:] if len(history) > _WITHOUT_FIRST else history
     last, figures = history[-1], history[-1].figures[side]
@@ -135,4 +137,5 @@ def _errors_between(nip: Nip, history: Sequence[SizeOfMesh], side: int) -> Array
     error, sizes = np.maximum(error, floor), scales(nip, figures)
     for kind in ALIKE:
         error[kind] = sizes[kind] * np.max(error[kind] / sizes[kind])
+    error[_TRACTIONS] = error[_TRACTIONS].max()
     return np.asarray(error)

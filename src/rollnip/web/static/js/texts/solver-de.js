@@ -130,6 +130,7 @@ export const SOLVER_DE = {
   "solver.bore": "muss kleiner sein als der Durchmesser des Kerns, {limit} mm, gegeben ist {got} mm.",
   "solver.journal": "darf nicht größer sein als der Durchmesser des Kerns, {limit} mm, gegeben ist {got} mm.",
   "solver.crown-thick": "muss kleiner sein als die Dicke des Bezugs, {thickness} mm, gegeben sind {got} mm am Durchmesser.",
+  "solver.crown-whole": "muss Durchmesser weniger den Nenndurchmesser {diameter} mm enthalten, nicht {got} mm.",
   "solver.crown-small": "muss klein sein gegen den Durchmesser, höchstens {share} von {diameter} mm, gegeben sind {got} mm am Durchmesser.",
   "solver.core-face": "muss über die Breite starr sein: Auf einem Halbraum ist die Annäherung nicht bestimmt.",
   "solver.skew": "muss zwischen -0,1 und 0,1 rad liegen, gegeben ist {got}.",

@@ -130,6 +130,7 @@ export const SOLVER_EN = {
   "solver.bore": "must be smaller than the core's diameter, {limit} mm, got {got} mm.",
   "solver.journal": "must not be larger than the core's diameter, {limit} mm, got {got} mm.",
   "solver.crown-thick": "must be smaller than the covering, {thickness} mm thick, got {got} mm on the diameter.",
+  "solver.crown-whole": "must hold diameters less the nominal one, {diameter} mm, got {got} mm.",
   "solver.crown-small": "must be small against the diameter, at most {share} of {diameter} mm, got {got} mm on the diameter.",
   "solver.core-face": "must be rigid for a face: over a half-space core the approach is not defined.",
   "solver.skew": "must lie between -0.1 and 0.1 rad, got {got}.",

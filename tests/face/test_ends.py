@@ -8,6 +8,7 @@ from press_face import FACE, press
 
 import rollnip as rn
 from rollnip.face import CoveringTable, Face, NipRows, solve_face
+from rollnip.face.relief import relief_of
 from rollnip.face.report import face_dict, face_parts
 from rollnip.io import parse_case
 from rollnip.patch import covering_end, face_end
@@ -185,6 +186,17 @@ def test_ends_that_cannot_be(short):
         Face(length=100.0, ends="covering", end_radius=1.0)
     with pytest.raises(rn.InvalidInputError, match="`end_radius` must be zero or positive"):
         Face(length=100.0, ends="edge", end_radius=-1.0)
+    with pytest.raises(rn.InvalidInputError, match="at most half of the length of the face, 50 mm"):
+        Face(length=100.0, ends="edge", end_radius=60.0)  # it left no load anywhere, and crashed
+
+
+def test_ends_of_a_covering_that_loses_are_refused_for_that(rows):
+    """It was the speed that was asked for, given or not."""
+    loses = rn.StandardLinearSolid(modulus=3.6, stiffening=2.0, relaxation_time=5e-3, poisson=0.5)
+    nip = stiff()
+    nip = replace(nip, upper=replace(nip.upper, layers=(rn.Layer(12.0, loses),)))
+    with pytest.raises(rn.InvalidInputError, match="must be elastic near the end of a face"):
+        relief_of((nip, nip), SHORT, (0.8, 0.8), rows)
     web = replace(press(), sheet=rn.Sheet.usual("newsprint"))
     with pytest.raises(rn.InvalidInputError, match='"plane" beside a sheet, got "covering"'):
         solve_face(web, Face(length=1600.0, ends="covering"))

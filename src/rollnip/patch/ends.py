@@ -79,13 +79,18 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
     Raises
     ------
     InvalidInputError
-        where a core is a half-space, or the rollers do not make a patch.
+        where a core is a half-space, a layer is viscoelastic, or the rollers do not make a patch.
     """
     end_radius, normal = require_not_negative("end_radius", end_radius), Approach(approach)
     if upper.core is not None or lower.core is not None:
         raise InvalidInputError(
             "`core` must be rigid on both rollers: over a half-space the approach of a long face "
             "grows with its length."
+        )
+    if upper.is_viscoelastic or lower.is_viscoelastic:
+        raise InvalidInputError(
+            "`layers` must be elastic near the end of a face, got a viscoelastic one; give the "
+            "modulus at the rate of the nip."
         )
     curvature = upper.curvature + lower.curvature
     width = 2.0 * np.sqrt(2.0 * approach / curvature) if curvature > 0.0 else inf

@@ -155,6 +155,8 @@ export const SOLVER_DE = {
   "solver.face-error": "Der geschätzte Fehler über die Breite ist {error}, mehr als {limit}.",
   "solver.face-error-ends": "Der geschätzte Fehler über die Breite ist {error}, mehr als {limit}. Das meiste davon kommt von den Enden des Ballens, der kurz ist: mit einer größeren Toleranz gilt das Ergebnis; oder berücksichtigen Sie die Enden nicht, oder nehmen Sie einen längeren Ballen.",
   "solver.face-deep-end": "An einem Ende des Ballens ist die Annäherung größer als {limit} % der Dicke der Bezüge; was die Enden zur Last beitragen, ist für kleine Dehnungen berechnet und kann um mehr als 5 % falsch sein.",
+  "solver.face-end-loses": "müssen nahe dem Ende des Ballens elastisch sein, gegeben ist eine viskoelastische Schicht; geben Sie den Modul bei der Geschwindigkeit des Spalts.",
+  "solver.face-end-round": "darf höchstens die halbe Länge des Ballens sein, {most} mm, gegeben sind {got} mm.",
   "solver.face-end-settle": "Die Annäherungen an den Enden des Ballens kamen nicht zur Ruhe; versuchen Sie eine kleinere Bombierung oder einen kleineren Winkel, oder berücksichtigen Sie die Enden nicht.",
   "solver.heat-lost": "Der Spalt ließ sich auf dem Weg nicht lösen: {why}",
   "solver.heat-nip": "Der warme Spalt: {why}",

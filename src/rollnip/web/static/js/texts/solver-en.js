@@ -155,6 +155,8 @@ export const SOLVER_EN = {
   "solver.face-error": "The estimated error over the face is {error}, more than {limit}.",
   "solver.face-error-ends": "The estimated error over the face is {error}, more than {limit}. Most of it comes from the ends of the face, which is short: accept it with a larger tolerance, or take `ends` = \"plane\" or a longer face.",
   "solver.face-deep-end": "At an end of the face the approach is more than {limit} % of the coverings' thickness; what the ends add to the load is computed for small strains and may be off by more than 5 %.",
+  "solver.face-end-loses": "must be elastic near the end of a face, got a viscoelastic one; give the modulus at the rate of the nip.",
+  "solver.face-end-round": "must be at most half of the length of the face, {most} mm, got {got} mm.",
   "solver.face-end-settle": "The approaches at the ends of the face did not settle; try a smaller crown or skew, or `ends` = \"plane\".",
   "solver.heat-lost": "The nip could not be solved on the way: {why}",
   "solver.heat-nip": "The warm nip: {why}",

@@ -227,7 +227,8 @@ class Face:
         "covering": there every covering ends, free of stress, and rubber gives way sideways;
         "covering-upper" and "covering-lower": that roller's alone ends, the other one's goes on.
     end_radius :
-        with which the shorter face is rounded at its ends [mm]; 0: a sharp edge.
+        with which the shorter face is rounded at its ends [mm], at most half of the length; 0: a
+        sharp edge.
 
     Raises
     ------
@@ -268,6 +269,11 @@ class Face:
             )
         if self.ends != "edge" and self.end_radius > 0.0:
             raise InvalidInputError('`end_radius` needs `ends` = "edge".')
+        if self.end_radius > 0.5 * self.length:
+            raise InvalidInputError(
+                f"`end_radius` must be at most half of the length of the face, "
+                f"{0.5 * self.length:g} mm, got {self.end_radius:g} mm."
+            )
         if self.sheet_across not in ("free", "one-speed"):
             raise InvalidInputError(
                 f'`sheet_across` must be "free" or "one-speed", got "{self.sheet_across}".'

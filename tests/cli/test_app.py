@@ -285,6 +285,20 @@ def test_what_takes_minutes_is_said_first(quick, tmp_path, layers, geometry, sai
     assert ("300 layers take long" in result.stderr) == said
 
 
+def test_ctrl_c_while_a_compiled_module_loads_is_130(monkeypatch, case):
+    """Such a module makes another error of it; one that is broken by itself is still heard of."""
+
+    def solve(nip, model=None, on_failure="return"):
+        raise ImportError("initialization failed") from cause
+
+    monkeypatch.setattr(import_module("rollnip.solver"), "solve", solve)
+    cause = KeyboardInterrupt()
+    result = run("solve", case)
+    assert (result.exit_code, result.stderr) == (130, "rollnip: interrupted.\n")
+    cause = None
+    assert isinstance(run("solve", case).exception, ImportError)
+
+
 def test_ctrl_c_before_the_commands_are_loaded_ends_quietly(monkeypatch):
     def interrupted():
         raise KeyboardInterrupt

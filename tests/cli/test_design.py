@@ -133,6 +133,7 @@ def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
     result = run(*ask(case, wanted="nip_width=40 mm"), "--out", str(out))
     assert (result.exit_code, result.stderr) == (1, "")
     assert result.stdout.startswith("No nip.load between 10.000 N/mm and 2000.0 N/mm was found")
+    assert result.stdout.endswith(" cases tried.\n")  # solved or not
     assert not out.exists()
 
 

@@ -247,6 +247,10 @@ def test_shapes_of_crowns_differ_as_they_should():
         ),
         (lambda: replace(press(), face_width=1500.0), "`face_width` must be the length of the fa"),
         (lambda: press(crown=CrownTable([-100.0, 100.0], [0.0, 0.1])), "must cover the whole face"),
+        (
+            lambda: press(crown=CrownTable([-800.0, 0.0, 800.0], [200.0, 200.25, 200.0])),
+            "`crown` must hold diameters less the nominal one, 200 mm, got 200.25 mm",
+        ),
     ],
 )
 def test_what_a_face_cannot_have_is_refused(make, sentence, straight):

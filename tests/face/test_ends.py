@@ -7,10 +7,11 @@ import pytest
 from press_face import FACE, press
 
 import rollnip as rn
-from rollnip.face import Face, NipRows, solve_face
+from rollnip.face import CoveringTable, Face, NipRows, solve_face
+from rollnip.face.relief import relief_of
 from rollnip.face.report import face_dict, face_parts
 from rollnip.io import parse_case
-from rollnip.patch import covering_end
+from rollnip.patch import covering_end, face_end
 from rollnip.patches import Across, Patch
 
 SHORT = Face(length=150.0, ends="edge", end_radius=2.0)
@@ -63,6 +64,43 @@ def test_a_sharp_end_carries_more_at_the_very_edge(rows):
     assert sharp.total_load == pytest.approx(patch_of(face).load, rel=4e-3)
     assert sharp.load[0] > 1.3 * sharp.load[32] > 1.3 * sharp.load[6]
     assert sharp.peak_pressure[0] > sharp.peak_pressure[32]
+
+
+def test_the_error_of_a_short_face_is_claimed(rows):
+    """Ends a nip width apart: 1.1 % off the patch, which used to be called verified to 2e-5."""
+    face = replace(SHORT, length=30.0, end_radius=0.0)
+    found = solve_face(stiff(), face, LINEAR, rows=rows)
+    off = abs(found.total_load / patch_of(face).load - 1.0)
+    assert 0.005 < off < found.error["ends"] < 0.05
+    assert not found.converged
+    assert "comes from the ends of the face, which is short" in found.status
+    longer = solve_face(stiff(), replace(face, length=600.0), LINEAR, rows=rows)
+    assert longer.converged
+    assert longer.error["ends"] < 1e-3
+
+
+def test_ends_of_a_worn_covering_are_those_of_its_own_thickness(rows):
+    """12 mm, worn to 6 mm at y < 0: it was the covering of the cross-section at both ends."""
+    nip = replace(press(covering=CoveringTable([-75.0, 75.0], thickness=[6.0, 12.0])), friction=0.0)
+    stiffer = replace(nip.upper.shaft, modulus=1e9, journal_diameter=None)
+    nip = replace(nip, upper=replace(nip.upper, shaft=stiffer), normal=rn.Approach(0.5))
+    face = replace(SHORT, end_radius=0.0)
+    found = solve_face(nip, face, LINEAR, rows=rows)
+    assert found.problem.relief is not None
+    for end, thickness in zip(found.problem.relief.ends, (6.0, 12.0), strict=True):
+        layer = rn.Layer(thickness, nip.upper.layers[0].material)
+        own = face_end(rn.Roller(radius=100.0, layers=(layer,)), rn.Roller(radius=75.0), 0.5)
+        assert end is not None
+        assert end.added_length == pytest.approx(own.added_length, rel=0.02)
+
+
+def test_a_deep_end_is_said(rows, short):
+    """What the ends add is of small strain; it was told of a patch, and kept from a face."""
+    assert short.reservations == ()
+    face = replace(SHORT, length=600.0, end_radius=0.0)
+    deep = solve_face(stiff(2.0), face, LINEAR, rows=rows)
+    assert [one.kind for one in deep.reservations] == ["deep_end"]
+    assert "more than 15 % of the coverings' thickness" in deep.warnings[0]
 
 
 def test_a_covering_that_ends_carries_less(rows, short):
@@ -148,6 +186,17 @@ def test_ends_that_cannot_be(short):
         Face(length=100.0, ends="covering", end_radius=1.0)
     with pytest.raises(rn.InvalidInputError, match="`end_radius` must be zero or positive"):
         Face(length=100.0, ends="edge", end_radius=-1.0)
+    with pytest.raises(rn.InvalidInputError, match="at most half of the length of the face, 50 mm"):
+        Face(length=100.0, ends="edge", end_radius=60.0)  # it left no load anywhere, and crashed
+
+
+def test_ends_of_a_covering_that_loses_are_refused_for_that(rows):
+    """It was the speed that was asked for, given or not."""
+    loses = rn.StandardLinearSolid(modulus=3.6, stiffening=2.0, relaxation_time=5e-3, poisson=0.5)
+    nip = stiff()
+    nip = replace(nip, upper=replace(nip.upper, layers=(rn.Layer(12.0, loses),)))
+    with pytest.raises(rn.InvalidInputError, match="must be elastic near the end of a face"):
+        relief_of((nip, nip), SHORT, (0.8, 0.8), rows)
     web = replace(press(), sheet=rn.Sheet.usual("newsprint"))
     with pytest.raises(rn.InvalidInputError, match='"plane" beside a sheet, got "covering"'):
         solve_face(web, Face(length=1600.0, ends="covering"))

@@ -1,11 +1,13 @@
 """Faces from case files and on the command line."""
 
 import json
+import signal
 import tomllib
 from dataclasses import replace
 from io import StringIO
 from math import inf, isnan, pi
 from pathlib import Path
+from time import monotonic, sleep
 
 import pytest
 from rich.console import Console
@@ -15,7 +17,7 @@ import rollnip as rn
 import rollnip.face
 from rollnip._results.case import case_tree
 from rollnip.cli.app import app
-from rollnip.cli.face import _per_cent
+from rollnip.cli.face import _per_cent, _processes
 from rollnip.face import with_crown
 from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.face.reservations import reservations_of
@@ -468,6 +470,23 @@ def test_fewer_than_one_process_is_refused():
     result = run("face", "solve", EXAMPLE, "--workers", "0")
     assert result.exit_code == 2
     assert "`--workers` must be 1 or more, got 0." in result.output
+
+
+@pytest.mark.slow
+def test_ctrl_c_is_for_the_command_and_not_for_its_processes():
+    """Theirs wrote a traceback each; stopped, the command does not wait for their nips."""
+    with _processes(2) as executor:
+        assert executor.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_IGN
+
+    def stopped():
+        with _processes(2) as executor:
+            executor.submit(sleep, 60.0)
+            raise KeyboardInterrupt
+
+    began = monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        stopped()
+    assert monotonic() - began < 50.0
 
 
 @pytest.mark.slow

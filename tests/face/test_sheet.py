@@ -265,3 +265,11 @@ def test_one_speed_across_needs_a_sheet():
     )
     with pytest.raises(rn.InvalidInputError, match="`sheet_across` needs a sheet in the nip"):
         rn.solve_face(nip, rn.Face(length=300.0, sheet_across="one-speed"))
+
+
+def test_the_error_is_claimed_where_the_polynomials_are_furthest_off(one_speed):
+    """Between the heaviest, the lightest and the mean place they were twice as far off."""
+    box, places = one_speed.law.box, (8, 14)
+    assert box.ripple(np.array([node[0] for node in box.nodes])) == pytest.approx(0.0, abs=1e-12)
+    off = [abs(one_speed.approach[i] / fresh_at(one_speed, i).approach - 1.0) for i in places]
+    assert max(off) < 1.1 * one_speed.error["approach"]

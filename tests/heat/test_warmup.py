@@ -72,6 +72,17 @@ def test_constant_heat_warms_as_an_explicit_program_says():
     assert surface == pytest.approx(judged[:, 1], abs=5e-3 * rise)
 
 
+def test_a_long_duration_tells_as_much_of_the_beginning():
+    """Over 1000 h a few of the times were left for the first hour: half of the rise was late."""
+    nip, heat = press(lossy()), cooled()
+    usual = rn.warm_up(nip, heat, PLAIN)
+    long = rn.warm_up(nip, heat, PLAIN, duration=3.6e6, steady=usual.steady)
+    assert long.time[-1] == 3.6e6
+    assert np.all(np.diff(long.time) > 0.0)
+    assert long.half_time == pytest.approx(usual.half_time, rel=1e-4)
+    assert long.hot_spot("upper")[-1] == pytest.approx(usual.steady.upper.hot_spot, abs=1e-3)
+
+
 @pytest.fixture(scope="module")
 def following():
     """Rubber whose heat falls to a fifth on the way."""
@@ -87,6 +98,13 @@ def test_it_ends_in_the_steady_state(following):
     assert following.power[-1] == pytest.approx(steady.power, rel=0.02)
     cold = steady.cold.dissipation_viscous + steady.cold.dissipation_friction
     assert following.power[0] == pytest.approx(cold, rel=1e-6)
+
+
+@pytest.mark.slow  # 40 nips with sub-layers, shared by three tests
+def test_nips_that_a_sweep_does_not_move_are_kept(following):
+    """30 nips in place of 21: each sweep solved all of them again, that of the start, too."""
+    assert following.error > 0.0
+    assert following.solves - following.steady.solves < 25
 
 
 @pytest.mark.slow  # 40 nips with sub-layers, shared by three tests

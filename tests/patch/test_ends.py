@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.patch import ends as module
 from rollnip.patch import face_end
 
 BARE = rn.Roller(radius=80.0)
@@ -57,3 +58,16 @@ def test_half_spaces_are_refused():
 def test_a_negative_approach_is_refused_before_a_root_is_taken():
     with pytest.raises(rn.InvalidInputError, match="approach"):
         face_end(covered(6.0, 0.3), BARE, -1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("radius", "rounded"), [(100.0, 0.0), (100.0, 1.0), (300.0, 3.0)])
+def test_the_error_covers_what_finer_grids_change(radius, rounded, monkeypatch):
+    """Half as many rectangles across alone told less than the rest of a first-order error."""
+    upper = rn.Roller(radius=radius, layers=[rn.Layer(4.0, rn.Elastic(modulus=3.6, poisson=0.5))])
+    found = face_end(upper, BARE, 0.3, rounded)
+    monkeypatch.setattr(module, "_ALONG", 96)
+    monkeypatch.setattr(module, "_ACROSS", 2048)
+    fine = face_end(upper, BARE, 0.3, rounded)
+    rest = fine.error / 1.25 if rounded == 0.0 else 0.0  # of a sharp end: halved by each halving
+    assert abs(found.added_length - fine.added_length) + rest < found.error

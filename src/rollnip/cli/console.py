@@ -42,12 +42,26 @@ def clear_failures() -> Iterator[None]:
         leave(str(error), 2)
     except KeyboardInterrupt:
         leave("interrupted.", 130)
+    except ImportError as error:
+        if not is_interrupt(error):
+            raise
+        leave("interrupted.", 130)
     except BrokenPipeError:
         silence(sys.stdout)
         raise typer.Exit(CLOSED_PIPE) from None
     except OSError as error:
         silence(sys.stdout)
         leave(f"cannot write to the standard output: {error.strerror or error}.", 2)
+
+
+def is_interrupt(error: BaseException | None) -> bool:
+    """Return whether an error is, or comes of, a Ctrl-C.
+
+    A compiled module that is interrupted while it is loaded says that its initialization failed.
+    """
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def require_no_empty(arguments: Sequence[str]) -> None:

@@ -351,7 +351,7 @@ def _json(tree: Any) -> str:
 def _text(found: Found, limit: str) -> str:
     from rollnip.design.report import result_lines
 
-    lines = [found.message, f"{found.solves} cases solved."]
+    lines = [found.message, f"{found.solves} cases tried."]
     if found.value is None:
         return "\n".join(lines) + "\n"
     other = _elsewhere(found, limit)

@@ -183,17 +183,23 @@ def _read(case: str) -> tuple[Nip, Face, Model]:
 
 @contextmanager
 def _processes(count: int) -> Iterator[Executor | None]:
-    """Yield processes that solve cross-sections; None for a single one, which is this."""
+    """Yield processes that solve cross-sections; None for a single one, which is this.
+
+    They are deaf to Ctrl-C, and killed where it stops this process.
+    """
     if count < 1:
         raise InvalidInputError(f"`--workers` must be 1 or more, got {count}.")
     if count == 1:
         yield None
         return
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
+    from rollnip.sweeps.crew import processes
 
-    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as executor:
-        yield executor
+    with processes(count) as crew:
+        try:
+            yield crew.pool
+        except KeyboardInterrupt:
+            crew.abandon()
+            raise
 
 
 def _roller(name: str) -> Any:

@@ -190,7 +190,12 @@ def _require_possible(problem: FaceProblem) -> None:
 
 
 def _require_covered(roller: Roller, crown: Array) -> None:
-    size = float(np.ptp(crown))
+    size, most = float(np.ptp(crown)), float(crown[np.argmax(np.abs(crown))])
+    if abs(most) * roller.curvature >= _LARGEST_CROWN > size * roller.curvature:
+        raise InvalidInputError(
+            f"`crown` must hold diameters less the nominal one, {2.0 * roller.radius:g} mm, got "
+            f"{2.0 * most:g} mm."
+        )
     if roller.layers and size >= thinnest(roller):
         raise InvalidInputError(
             f"`crown` must be smaller than the covering, {thinnest(roller):g} mm thick, "

@@ -48,7 +48,7 @@ class End:
     load, peak : (k + 1,) integrals from the end of the ratios of load and peak pressure to those of
         the plane nip [mm]; beyond the last distance the ratios are 1.
     added_length : length of face that the end adds to the load [mm]; negative: it carries less.
-    error : error of that length [mm].
+    error : error of that length, by its elements and by interpolation between approaches [mm].
     """
 
     distance: Array
@@ -73,16 +73,23 @@ class Relief:
 
     def ratios(self, grid: FaceGrid) -> tuple[Array, Array]:
         """Return load and peak pressure at the places, relative to plane nips, each (n,)."""
+        (load, peak), (other_load, other_peak) = self._of_each(grid)
+        return load * other_load, peak * other_peak
+
+    def overlap(self, grid: FaceGrid) -> Array:
+        """Return how much both ends change the load at the same places, (n,), as a product."""
+        (load, _), (other, _) = self._of_each(grid)
+        return np.abs((1.0 - load) * (1.0 - other))
+
+    def _of_each(self, grid: FaceGrid) -> list[tuple[Array, Array]]:
+        """Return load and peak pressure as each end alone would change them, each (n,)."""
         edges = np.concatenate([[0.0], np.cumsum(grid.weights)])
-        load, peak = np.ones(grid.y.size), np.ones(grid.y.size)
-        first, second = self.ends
-        if first is not None:
-            load *= first.mean("load", edges)
-            peak *= first.mean("peak", edges)
-        if second is not None:
-            load *= second.mean("load", edges)[::-1]
-            peak *= second.mean("peak", edges)[::-1]
-        return load, peak
+        even = np.ones(grid.y.size)
+        first, second = (
+            (even, even) if one is None else (one.mean("load", edges), one.mean("peak", edges))
+            for one in self.ends
+        )
+        return [first, (second[0][::-1], second[1][::-1])]
 
     @property
     def added_length(self) -> float:
@@ -90,16 +97,28 @@ class Relief:
         return sum(one.added_length for one in self.ends if one is not None)
 
 
-def relief_of(nip: Nip, face: Face, approaches: tuple[float, float], rows: NipRows) -> Relief:
+def relief_of(
+    nips: tuple[Nip, Nip], face: Face, approaches: tuple[float, float], rows: NipRows
+) -> Relief:
     """Return the ends of a face at the approaches there [mm].
+
+    Parameters
+    ----------
+    nips : the nip at either end, with the coverings there.
+    face : the face.
+    approaches : at both ends [mm].
+    rows : keeps what was solved.
 
     Raises
     ------
     InvalidInputError
         where the ends cannot be computed, as with cores that are half-spaces.
     """
-    ends = [None if approach <= 0.0 else _end(nip, face, approach, rows) for approach in approaches]
-    return Relief((ends[0], ends[1]))
+    first, second = (
+        None if approach <= 0.0 else _end(nip, face, approach, rows)
+        for nip, approach in zip(nips, approaches, strict=True)
+    )
+    return Relief((first, second))
 
 
 def _end(nip: Nip, face: Face, approach: float, rows: NipRows) -> End:
@@ -112,12 +131,17 @@ def _end(nip: Nip, face: Face, approach: float, rows: NipRows) -> End:
     def between(i: int) -> Array:
         return np.asarray((1.0 - share) * curves[0][i] + share * curves[1][i])
 
+    low_added, high_added = (one.added_length for one in both)
+    added = (1.0 - share) * low_added + share * high_added
+    # Between two nodes a power law lies off its chord by this much.
+    off = 0.5 * share * (1.0 - share) * (high_added - low_added) ** 2
+    off /= max(abs(added), abs(high_added - low_added), 1e-300)
     return End(
         distance=between(0),
         load=between(1),
         peak=between(2),
-        added_length=(1.0 - share) * both[0].added_length + share * both[1].added_length,
-        error=max(one.error for one in both),
+        added_length=added,
+        error=max(one.error for one in both) + off,
     )
 
 

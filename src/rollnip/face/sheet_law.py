@@ -118,6 +118,11 @@ class Box:
         )
         return whole + np.einsum("in,inp->np", points - near, by), by
 
+    def ripple(self, log_load: Array) -> Array:
+        """Return the Chebyshev polynomial in ln F that vanishes at the nodes, (n,)."""
+        t = np.clip((log_load - self._middle[0]) / self._half[0], -1.0, 1.0)
+        return np.asarray(np.cos(self.counts[0] * np.arccos(t)))
+
     @property
     def _middle(self) -> Array:
         return np.asarray(0.5 * (self.low + self.high))

@@ -54,7 +54,8 @@ class FaceSolution:
     status : a sentence that says so, or what is wrong.
     reservations : where the nip is open or slides, and what its plane nips leave out.
     error : relative errors: of approach, nip width and peak pressure by interpolation between plane
-        nips, and of the load by the number of places along the face ("places").
+        nips, of the load by the number of places along the face ("places"), and of the total load
+        by ends that are not plane ("ends").
     law : the table of cross-sections.
     """
 

@@ -35,8 +35,9 @@ _NODES = (0.0, 0.03, 0.1, 0.2, 0.35, 0.55, 0.75, 1.0)
 _ALLOWED = 0.25  # largest change of ln E* inside a sub-layer
 _SWEEPS = 5
 _SHARE = 5.0  # allowed change of the path over the largest rise, over the model's tolerance
-_TIMES = 121
+_TIMES, _LATER = 121, 25  # times while it warms up, and after that
 _LONG = 5.0  # duration over the slowest time constant
+_UNMOVED = 0.1  # over the allowed change of the path: the nip is that of the sweep before
 _RTOL, _ATOL = 1e-6, 1e-4  # tolerances of the integration: relative, and absolute [K]
 _RUNAWAY = 200.0  # rise over the start up to which the table extends without a steady state [K]
 
@@ -136,15 +137,15 @@ def warm_up(
             "nothing that could warm up."
         )
     path = _WarmingPath(thermal, steady)
-    length = _LONG * path.slowest if duration is None else duration
-    time = length * np.linspace(0.0, 1.0, _TIMES) ** 2
     path.tabulate([path.guess(f) for f in _NODES])
+    time = _times(duration, _LONG * path.slowest)
     values, change = path.integrate(time), 0.0
     converged = not thermal.follows
     for _ in range(0 if converged else _SWEEPS):
-        path.follow(values)
+        allowed = _SHARE * model.tolerance * float(np.ptp(values))
+        left = path.follow(values, _UNMOVED * allowed)
         new = path.integrate(time)
-        change = float(np.max(np.abs(new - values)))
+        change = max(float(np.max(np.abs(new - values))), left)
         values = new
         if change <= _SHARE * model.tolerance * float(np.ptp(values)):
             converged = True
@@ -166,6 +167,15 @@ def warm_up(
         values,
         path.power(values),
     )
+
+
+def _times(duration: float | None, settled: float) -> Array:
+    """Return times from 0 to a duration [s], most of them until all has nearly settled."""
+    length = settled if duration is None else duration
+    time = min(length, settled) * np.linspace(0.0, 1.0, _TIMES) ** 2
+    if length <= settled:
+        return time
+    return np.concatenate([time, np.geomspace(settled, length, _LATER)[1:]])
 
 
 class _WarmingPath:
@@ -218,8 +228,13 @@ class _WarmingPath:
             return np.asarray(self._rows[0])
         return np.asarray(self._rows(min(max(theta, 0.0), 1.0)))
 
-    def follow(self, values: Array) -> None:
-        """Solve the nips of the table again at the temperatures of a path, as far as it reaches."""
+    def follow(self, values: Array, unmoved: float) -> float:
+        """Solve the nips of the table again at the temperatures of a path, as far as it reaches.
+
+        A nip whose temperatures are within ``unmoved`` of those at which it was solved is kept [K].
+        Returns the largest difference that is thereby left.
+        """
+        left = 0.0
         theta = self.theta(values)
         rising = np.maximum.accumulate(theta)
         keep = np.concatenate([[True], np.diff(rising) > 0.0])
@@ -228,8 +243,13 @@ class _WarmingPath:
             if node > reached:
                 continue
             here = np.array([np.interp(node, rising[keep], column) for column in values[keep].T])
+            moved = float(np.max(np.abs(here - self.states[i].temperatures)))
+            if moved <= unmoved:
+                left = max(left, moved)
+                continue
             self.states[i] = self.thermal.at(here, self.thermal.divided(here, self.near, _ALLOWED))
         self._interpolate()
+        return left
 
     def power(self, values: Array) -> Array:
         """Return the heat of the nip along a path, (nt,) [W/m]."""
@@ -238,20 +258,10 @@ class _WarmingPath:
 
     @property
     def slowest(self) -> float:
-        """Slowest time constant of conduction [s]."""
-        matrix, _ = self.conduction.system(self.thermal_over)
+        """Slowest time constant of conduction with the exchange of the last nip [s]."""
+        matrix, _ = self.conduction.system(self.states[-1].sources.over)
         rates = np.linalg.eigvals(self._rates(matrix)).real
         return float(1.0 / np.min(np.abs(rates)))
-
-    @property
-    def thermal_over(self) -> Exchange:
-        """Exchange of the steady nip."""
-        state = self.states[-1] if self.states else None
-        return self._first_over if state is None else state.sources.over
-
-    @cached_property
-    def _first_over(self) -> Exchange:
-        return self.thermal.at(self.start, self.thermal.whole()).sources.over
 
     def _rates(self, matrix: Array) -> Array:
         """Return the Jacobian of the cells, with the surfaces eliminated, (n, n) [1/s]."""

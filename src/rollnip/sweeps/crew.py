@@ -86,10 +86,14 @@ class Processes:
     def require_alive(self) -> None:
         """Do nothing: the pool itself reports a process that died."""
 
+    @property
+    def pool(self) -> ProcessPoolExecutor:
+        """The processes as an executor, for callers with work of their own."""
+        return self._pool
+
     def abandon(self) -> None:
         """Kill the processes in the middle of their work."""
-        for process in list((self._pool._processes or {}).values()):
-            process.kill()
+        _kill(self._pool)
 
     def close(self) -> None:
         """Let each process finish its present case, then end."""
@@ -108,6 +112,9 @@ class Processes:
                 "Worker processes cannot be started. In a script, call the sweep below "
                 '`if __name__ == "__main__":`, or choose `workers=1`.'
             ) from None
+        except KeyboardInterrupt:
+            _kill(pool)
+            raise
         if theirs != own_version():
             pool.shutdown(wait=True, cancel_futures=True)
             raise RollnipError(
@@ -182,6 +189,11 @@ def processes(count: int) -> Iterator[Processes]:
         yield crew
     finally:
         crew.close()
+
+
+def _kill(pool: ProcessPoolExecutor) -> None:
+    for process in list((pool._processes or {}).values()):
+        process.kill()
 
 
 def _block_interrupts() -> None:

@@ -34,9 +34,9 @@ _ACROSS = 512
 millimetres is lost between two."""
 _FACE = 10.0
 """Length of face that is computed, over the sum of nip width and thicknesses."""
-_REST = 1.25
+_ERROR_OVER_CHANGE = 1.25
 """Error over the change from half as many rectangles, at a sharp end where both fall by half."""
-_PLACED = 0.125
+_LEAST_ERROR = 0.125
 """Smallest error over the length of a rectangle: of some rounded ends no change was seen, and a
 tenth of that was left."""
 _ITERATION = 1e-5
@@ -124,7 +124,7 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
         peak_pressure=peaks[inside] / peaks[_ACROSS // 2],
         line_load=float(loads[_ACROSS // 2]),
         added_length=added,
-        error=max(_REST * abs(added - _added(coarse)), _PLACED * fine.grid.hy),
+        error=max(_ERROR_OVER_CHANGE * abs(added - _added(coarse)), _LEAST_ERROR * fine.grid.hy),
         **doubts(upper, lower, approach),
     )
 

@@ -12,6 +12,7 @@ from rollnip.contact import (
     GivenStates,
     Layout,
     State,
+    ZoneEnd,
     cosine_nodes,
     elements_of_zones,
     left_out_of_creep,
@@ -341,8 +342,8 @@ def test_ends_on_their_way_never_cross():
 
 def with_slip(layout, x, state, least):
     """The layout with slip zones at edges of like surfaces, at a friction of 1."""
-    nothing_turns = {"exponents": (0j, 0j), "matters": lambda _: False}
-    return slipping_at_edges(layout, x, state, 1.0, least, **nothing_turns)
+    edges = ZoneEnd(x, state, 0, 1), ZoneEnd(x, state, x.size - 1, -1)
+    return slipping_at_edges(layout, edges, 1.0, least, matters=lambda _: False)
 
 
 def carter_without_slip(share, count=22):

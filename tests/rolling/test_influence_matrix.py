@@ -23,6 +23,7 @@ from rollnip.contact import (
     GivenStates,
     Layout,
     State,
+    ZoneEnd,
     cosine_nodes,
     slipping_at_edges,
     subdivided,
@@ -116,9 +117,11 @@ def test_slip_by_turning_reaches_to_where_friction_ends():
     beta, friction = 0.45, 1.0
     eps = np.arctanh(beta) / np.pi
     layout, exponents, problem, state = solved(22, beta, State.STICK, friction=friction)
-    edges = layout, problem.x, state, friction, 1.0, exponents
-    found = slipping_at_edges(*edges, matters=lambda slip: slip.length > 1e-4)
+    kappas = zip((0, problem.x.size - 1), (1, -1), exponents, strict=True)
+    edges = [ZoneEnd(problem.x, state, node, inwards, kappa) for node, inwards, kappa in kappas]
+    where = layout, edges, friction, 1.0
+    found = slipping_at_edges(*where, matters=lambda slip: slip.length > 1e-4)
     assert found.states.tolist() == [State.SLIP_MINUS, State.STICK, State.SLIP_PLUS]
     reach = 2.0 * np.exp(-np.arctan(friction) / eps)
     np.testing.assert_allclose(np.diff(found.breaks)[[0, 2]], [reach, 0.5 * reach], rtol=0.03)
-    assert slipping_at_edges(*edges, matters=lambda slip: slip.length > 1.0).is_like(layout)
+    assert slipping_at_edges(*where, matters=lambda slip: slip.length > 1.0).is_like(layout)

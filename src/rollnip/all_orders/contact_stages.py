@@ -35,10 +35,9 @@ from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.placing import place_ends
 from rollnip.rolling.refinement import (
     BY_NODES,
-    COARSE_SIZES,
+    SIZES,
     IsTooDeep,
     by_nodes,
-    finer_by_nodes,
     free_ends_from_nodes,
     refine,
 )
@@ -53,7 +52,7 @@ _COARSE_ELEMENTS = 24  # elements of a coarse contact
 NEARLY_CONVERGED = 6.0  # change over the tolerance below which contacts by nodes are refined
 # Tolerance of coarse contacts; also about how far a correction moves ends of zones, over the width.
 _COARSE_TOLERANCE = 1e-2
-
+_COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
 
 WithSecondOrder = Callable[[], RollingContact]
 """A function that returns the contact with responses of second order."""
@@ -100,7 +99,7 @@ def first_contact(
     iteration leaves so little of the error of the correction that it saves none.
     """
     nip, coarse = contact.nip, contact.with_model(coarse_model(contact.model))
-    sizes = by_nodes(coarse, half_width, COARSE_SIZES)
+    sizes = by_nodes(coarse, half_width, _COARSE_SIZES)
     if grips_skin(nip):
         *_, located = sizes
         return located, ContactStage.COARSE
@@ -208,6 +207,12 @@ def _at_better_stage(
     return finer or replace(latest, settled=False), ContactStage.FINE
 
 
+def finer_by_nodes(before: MeshSolution) -> MeshSolution | None:
+    """Return the solution node by node on the next finer mesh; None if there is no finer one."""
+    finer = [count for count in SIZES[len(_COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
+    return next(by_nodes(before.contact, 0.0, tuple(finer), before), None)
+
+
 def coarse_model(model: Model) -> Model:
     """Return the model with the tolerance of a coarse contact."""
     return replace(model, tolerance=max(model.tolerance, _COARSE_TOLERANCE))
@@ -242,7 +247,7 @@ def _at_same_stage(latest: MeshSolution, stage: ContactStage, change: float) -> 
     if not latest.has_free_ends:
         if change > NEAR_ENOUGH:
             half_width = 0.5 * latest.figures.nip_width
-            *_, found = by_nodes(latest.contact, half_width, COARSE_SIZES)
+            *_, found = by_nodes(latest.contact, half_width, _COARSE_SIZES)
             return found
         start = latest.state.states, latest.lagged, latest.steps
         found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES, NEGLIGIBLE)

@@ -341,10 +341,6 @@ class Layout:
             for before, after in at_edges
         )
 
-    def leads(self, edge: int) -> bool:
-        """Return whether the edge with the number of its break is a leading edge."""
-        return edge == self.states.size or bool(self.states[edge] == FREE)
-
     def with_proposed_ends(
         self,
         x: Array,

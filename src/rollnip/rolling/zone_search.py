@@ -162,11 +162,9 @@ def _with_slip_at_edges(latest: MeshSolution, layout: Layout) -> Layout | None:
         return None
     slipping = slipping_at_edges(
         layout,
-        latest.mesh.inner,
-        latest.state,
+        latest.edges,
         friction,
         latest.contact.shortest_zone(layout.width),
-        latest.mesh.fine.exponents,
         matters=lambda slip: not is_negligible(latest, slip),
     )
     return None if slipping.is_like(layout) else slipping

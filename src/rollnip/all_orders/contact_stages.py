@@ -32,7 +32,7 @@ from rollnip.rolling.free_ends import (
 from rollnip.rolling.iterations import solve_on_mesh
 from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution
-from rollnip.rolling.placing import place_ends
+from rollnip.rolling.placing import Aim, place_ends
 from rollnip.rolling.refinement import (
     BY_NODES,
     SIZES,
@@ -114,7 +114,7 @@ def first_contact(
                 before = located.with_correction_of(coarse.holding(held))
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = place_ends(start, _COARSE_ELEMENTS, zones_known=False)
+                found = place_ends(start, _COARSE_ELEMENTS, Aim.ZONES)
                 if found is not None:
                     return found.solution, ContactStage.COARSE
     known = replace(located, contact=contact)  # to be solved with its own tolerance
@@ -272,8 +272,7 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
             found = place_ends(
                 search,
                 _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
-                zones_known=True,
+                Aim.ENDS if is_coarse else Aim.FIGURES,
                 follows_correction=not is_crowded,
-                may_be_last=not is_coarse,
             )
     return replace(latest if found is None else found.solution, settled=found is not None)

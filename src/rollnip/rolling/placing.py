@@ -71,15 +71,8 @@ def place_ends(
         # The figures show errors of ends only with the zones of the previous size.
         is_new = aim is Aim.FIGURES and not search.layout.is_like(start.layout)
         is_placed = _is_placed(search, Aim.ENDS if is_new else aim)
-        others = other_zones(
-            search.latest,
-            search.layout,
-            search.proposed,
-            search.vanishing,
-            is_placed=is_placed,
-            is_near=aim is Aim.ZONES and search.is_near,
-        )
-        other = search.untried(others)
+        is_near = aim is Aim.ZONES and search.is_near
+        other = search.untried(other_zones(search, is_placed=is_placed, is_near=is_near))
         if other is not None:
             search.change_zones(other)
         elif not is_placed:
@@ -99,14 +92,13 @@ def _have_followed(search: EndSearch, aim: Aim) -> bool:
     move it again. The solution must call for no other zones. Beside a boundary layer or a short
     zone that is not exact enough for the last contact: there pressure and shear must be right.
     """
-    layout, proposed, latest = search.layout, search.proposed, search.latest
-    distance = proposed.distance(layout, transitions_count=1.0)
+    proposed, latest = search.proposed, search.latest
+    distance = proposed.distance(search.layout, transitions_count=1.0)
     if not (proposed.is_proper and distance <= search.contact.tolerance):
         return False
     if aim is Aim.FIGURES and (_is_false_at_edge(latest) or _exceeds_bound(latest)):
         return False
-    is_placed = _are_ends_near(search, aim)
-    return changed_states(latest, layout, checks_contact=is_placed) is None
+    return changed_states(search, checks_contact=_are_ends_near(search, aim)) is None
 
 
 def _is_placed(search: EndSearch, aim: Aim) -> bool:

@@ -9,7 +9,6 @@ from rollnip.contact.layout import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
     Crowding,
     Subdivision,
-    carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
@@ -45,7 +44,6 @@ __all__ = [
     "Subdivision",
     "TurningSlip",
     "ZoneEnd",
-    "carry",
     "contact_intervals",
     "contact_zones",
     "cosine_nodes",

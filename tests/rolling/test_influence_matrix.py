@@ -20,7 +20,6 @@ import pytest
 from rollnip.contact import (
     ContactProblem,
     Control,
-    GivenStates,
     Layout,
     State,
     ZoneEnd,
@@ -28,6 +27,7 @@ from rollnip.contact import (
     slipping_at_edges,
     subdivided,
 )
+from rollnip.contact.coupled import solve_states
 from rollnip.influence import load_weights
 from rollnip.rolling.influence_matrix import influence_matrix, unit_tractions
 
@@ -72,7 +72,7 @@ def solved(count, beta, state, *, friction, knows=True):
             None if sticks else 1.0,
         ),
     )
-    state = GivenStates().solve(problem, layout.states_on(problem.x))
+    state = solve_states(problem, layout.states_on(problem.x))
     return layout, exponents, problem, state
 
 

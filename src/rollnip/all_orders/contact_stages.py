@@ -250,7 +250,7 @@ def _at_same_stage(latest: MeshSolution, stage: ContactStage, change: float) -> 
             *_, found = by_nodes(latest.contact, half_width, _COARSE_SIZES)
             return found
         start = latest.state.states, latest.lagged, latest.steps
-        found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES, NEGLIGIBLE)
+        found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES.solve, NEGLIGIBLE)
     else:
         found = _with_moved_ends(latest, stage)
     return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)

@@ -17,7 +17,7 @@ from rollnip.contact.mesh import (
     subdivided,
     uncrowded,
 )
-from rollnip.contact.methods import GivenStates, Safeguarded
+from rollnip.contact.methods import Safeguarded
 from rollnip.contact.missing_slip import TurningSlip, slip_by_turning, slipping_at_edges
 from rollnip.contact.problem import (
     ContactProblem,
@@ -35,7 +35,6 @@ __all__ = [
     "Control",
     "CoupledActiveSet",
     "Crowding",
-    "GivenStates",
     "Inequalities",
     "Layout",
     "Safeguarded",

@@ -146,7 +146,7 @@ def _solve_by_nodes(
     if before is not None:
         lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), lagged, steps
-    return solve_on_mesh(contact, mesh, start, BY_NODES, NEGLIGIBLE)
+    return solve_on_mesh(contact, mesh, start, BY_NODES.solve, NEGLIGIBLE)
 
 
 def _zones_are_known(latest: MeshSolution, before: MeshSolution | None) -> bool:

@@ -10,8 +10,9 @@ from claims import ROUNDING, scales
 from population import numbers, random_case
 
 import rollnip as rn
+from rollnip.all_orders.contact_stages import finer_by_nodes
 from rollnip.rolling import RollingContact, half_width_guess, pair_kernels, refine
-from rollnip.rolling.refinement import SIZES, by_nodes, finer_by_nodes
+from rollnip.rolling.refinement import SIZES, by_nodes
 
 TOLERANCE = 1e-3
 

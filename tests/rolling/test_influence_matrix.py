@@ -20,13 +20,14 @@ import pytest
 from rollnip.contact import (
     ContactProblem,
     Control,
-    GivenStates,
     Layout,
     State,
+    ZoneEnd,
     cosine_nodes,
     slipping_at_edges,
     subdivided,
 )
+from rollnip.contact.coupled import solve_states
 from rollnip.influence import load_weights
 from rollnip.rolling.influence_matrix import influence_matrix, unit_tractions
 
@@ -71,7 +72,7 @@ def solved(count, beta, state, *, friction, knows=True):
             None if sticks else 1.0,
         ),
     )
-    state = GivenStates().solve(problem, layout.states_on(problem.x))
+    state = solve_states(problem, layout.states_on(problem.x))
     return layout, exponents, problem, state
 
 
@@ -116,9 +117,11 @@ def test_slip_by_turning_reaches_to_where_friction_ends():
     beta, friction = 0.45, 1.0
     eps = np.arctanh(beta) / np.pi
     layout, exponents, problem, state = solved(22, beta, State.STICK, friction=friction)
-    edges = layout, problem.x, state, friction, 1.0, exponents
-    found = slipping_at_edges(*edges, matters=lambda slip: slip.length > 1e-4)
+    kappas = zip((0, problem.x.size - 1), (1, -1), exponents, strict=True)
+    edges = [ZoneEnd(problem.x, state, node, inwards, kappa) for node, inwards, kappa in kappas]
+    where = layout, edges, friction, 1.0
+    found = slipping_at_edges(*where, matters=lambda slip: slip.length > 1e-4)
     assert found.states.tolist() == [State.SLIP_MINUS, State.STICK, State.SLIP_PLUS]
     reach = 2.0 * np.exp(-np.arctan(friction) / eps)
     np.testing.assert_allclose(np.diff(found.breaks)[[0, 2]], [reach, 0.5 * reach], rtol=0.03)
-    assert slipping_at_edges(*edges, matters=lambda slip: slip.length > 1.0).is_like(layout)
+    assert slipping_at_edges(*where, matters=lambda slip: slip.length > 1.0).is_like(layout)

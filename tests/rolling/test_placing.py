@@ -11,7 +11,7 @@ from rollnip.all_orders import with_second_order
 from rollnip.contact import Layout
 from rollnip.influence import KernelCache
 from rollnip.rolling import RollingContact, half_width_guess, pair_kernels
-from rollnip.rolling.placing import place_ends
+from rollnip.rolling.placing import Aim, place_ends
 from rollnip.rolling.refinement import SIZES, by_nodes
 from rollnip.rolling.zone_solver import SearchState
 
@@ -30,22 +30,22 @@ def start(cases):
 
 def test_each_size_of_mesh_has_a_second_order_of_its_own(start):
     """However little it moved on the size before: that was the one of a coarser mesh."""
-    coarse = place_ends(start, 26, zones_known=False)
+    coarse = place_ends(start, 26, Aim.ZONES)
     still = replace(coarse, change=1e-3, to_come=1e-6)
-    fine = place_ends(still, 40, zones_known=True)
+    fine = place_ends(still, 40, Aim.ENDS)
     assert fine.solution.mesh.kernels.held is not coarse.solution.mesh.kernels.held
     assert fine.change != still.change
 
 
 def test_a_second_order_that_moves_as_much_as_before_is_not_still(start):
-    stand = place_ends(start, 26, zones_known=False)
+    stand = place_ends(start, 26, Aim.ZONES)
     again = replace(stand, change=0.0, to_come=inf).renewed()
     assert again.change > 0.0
     assert again.to_come == inf
 
 
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(start):
-    stand = place_ends(start, 26, zones_known=False)
+    stand = place_ends(start, 26, Aim.ZONES)
     once = replace(stand, change=inf, to_come=inf).renewed()
     assert once.to_come == inf  # one change tells nothing
     twice = replace(stand, change=4.0 * once.change, to_come=inf).renewed()

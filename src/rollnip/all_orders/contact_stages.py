@@ -32,13 +32,12 @@ from rollnip.rolling.free_ends import (
 from rollnip.rolling.iterations import solve_on_mesh
 from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution
-from rollnip.rolling.placing import place_ends
+from rollnip.rolling.placing import Aim, place_ends
 from rollnip.rolling.refinement import (
     BY_NODES,
-    COARSE_SIZES,
+    SIZES,
     IsTooDeep,
     by_nodes,
-    finer_by_nodes,
     free_ends_from_nodes,
     refine,
 )
@@ -53,7 +52,7 @@ _COARSE_ELEMENTS = 24  # elements of a coarse contact
 NEARLY_CONVERGED = 6.0  # change over the tolerance below which contacts by nodes are refined
 # Tolerance of coarse contacts; also about how far a correction moves ends of zones, over the width.
 _COARSE_TOLERANCE = 1e-2
-
+_COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
 
 WithSecondOrder = Callable[[], RollingContact]
 """A function that returns the contact with responses of second order."""
@@ -100,7 +99,7 @@ def first_contact(
     iteration leaves so little of the error of the correction that it saves none.
     """
     nip, coarse = contact.nip, contact.with_model(coarse_model(contact.model))
-    sizes = by_nodes(coarse, half_width, COARSE_SIZES)
+    sizes = by_nodes(coarse, half_width, _COARSE_SIZES)
     if grips_skin(nip):
         *_, located = sizes
         return located, ContactStage.COARSE
@@ -115,7 +114,7 @@ def first_contact(
                 before = located.with_correction_of(coarse.holding(held))
             start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = place_ends(start, _COARSE_ELEMENTS, zones_known=False)
+                found = place_ends(start, _COARSE_ELEMENTS, Aim.ZONES)
                 if found is not None:
                     return found.solution, ContactStage.COARSE
     known = replace(located, contact=contact)  # to be solved with its own tolerance
@@ -208,6 +207,12 @@ def _at_better_stage(
     return finer or replace(latest, settled=False), ContactStage.FINE
 
 
+def finer_by_nodes(before: MeshSolution) -> MeshSolution | None:
+    """Return the solution node by node on the next finer mesh; None if there is no finer one."""
+    finer = [count for count in SIZES[len(_COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
+    return next(by_nodes(before.contact, 0.0, tuple(finer), before), None)
+
+
 def coarse_model(model: Model) -> Model:
     """Return the model with the tolerance of a coarse contact."""
     return replace(model, tolerance=max(model.tolerance, _COARSE_TOLERANCE))
@@ -242,10 +247,10 @@ def _at_same_stage(latest: MeshSolution, stage: ContactStage, change: float) -> 
     if not latest.has_free_ends:
         if change > NEAR_ENOUGH:
             half_width = 0.5 * latest.figures.nip_width
-            *_, found = by_nodes(latest.contact, half_width, COARSE_SIZES)
+            *_, found = by_nodes(latest.contact, half_width, _COARSE_SIZES)
             return found
         start = latest.state.states, latest.lagged, latest.steps
-        found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES, NEGLIGIBLE)
+        found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES.solve, NEGLIGIBLE)
     else:
         found = _with_moved_ends(latest, stage)
     return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)
@@ -267,8 +272,7 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
             found = place_ends(
                 search,
                 _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
-                zones_known=True,
+                Aim.ENDS if is_coarse else Aim.FIGURES,
                 follows_correction=not is_crowded,
-                may_be_last=not is_coarse,
             )
     return replace(latest if found is None else found.solution, settled=found is not None)

@@ -9,7 +9,6 @@ from rollnip.contact.layout import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
     Crowding,
     Subdivision,
-    carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
@@ -18,7 +17,7 @@ from rollnip.contact.mesh import (
     subdivided,
     uncrowded,
 )
-from rollnip.contact.methods import GivenStates, Safeguarded
+from rollnip.contact.methods import Safeguarded
 from rollnip.contact.missing_slip import TurningSlip, slip_by_turning, slipping_at_edges
 from rollnip.contact.problem import (
     ContactProblem,
@@ -36,7 +35,6 @@ __all__ = [
     "Control",
     "CoupledActiveSet",
     "Crowding",
-    "GivenStates",
     "Inequalities",
     "Layout",
     "Safeguarded",
@@ -45,7 +43,6 @@ __all__ = [
     "Subdivision",
     "TurningSlip",
     "ZoneEnd",
-    "carry",
     "contact_intervals",
     "contact_zones",
     "cosine_nodes",

@@ -37,84 +37,28 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
     numpy.linalg.LinAlgError
         where the system for these states is singular.
     """
-    return LinearSystem.of(problem, states).solved(problem)
-
-
-@dataclass(frozen=True, slots=True)
-class LinearSystem:
-    """The factorised linear system of a contact problem with given states.
-
-    Attributes
-    ----------
-    problem, states : what the system was built from.
-    contact, stick : indices of the nodes in contact, and of those whose shear is unknown.
-    signs : (n,) sign of the shear at nodes that slip, 0 elsewhere.
-    factors, pivots : LAPACK's LU decomposition.
-    """
-
-    problem: ContactProblem
-    states: States
-    contact: Indices
-    stick: Indices
-    signs: Array
-    factors: Array
-    pivots: Indices
-
-    @classmethod
-    def of(cls, problem: ContactProblem, states: States) -> LinearSystem:
-        """Build and factorise the system; raises as `solve_states` does."""
-        (contact,) = (states != FREE).nonzero()
-        stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
-        signs = shear_signs(states)
-        # LAPACK is column-major and the matrix row-major, so the transpose is factorised in place.
-        # For such small systems SciPy's wrappers would cost more than LAPACK itself.
-        matrix = system_matrix(problem, contact, stick, signs)
-        factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
-        if info != 0:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return cls(problem, states, contact, stick, signs, factors, pivots)
-
-    def solved(self, problem: ContactProblem) -> ContactState:
-        """Return the solution of ``problem``, which may differ from the factorised one.
-
-        Its clearance, creep lengths and offsets, and prescribed values may differ; its influence,
-        weights, friction and choice of prescribed quantities must be the same.
-        """
-        unknowns = self._unknowns(problem)
-        n_c, n_s = self.contact.size, self.stick.size
-        pressure = np.zeros(self.states.size)
-        pressure[self.contact] = unknowns[:n_c]
-        shear = problem.friction * self.signs * pressure
-        shear[self.stick] = unknowns[n_c : n_c + n_s]
-        # The system meets the prescribed values only to rounding; the exact ones are kept.
-        control = problem.control
-        approach, creepage = control.approach, control.creepage
-        if approach is None:
-            approach = float(unknowns[-2])
-        if creepage is None:
-            creepage = float(unknowns[-1]) + 0.0 if problem.friction > 0.0 else np.nan  # not -0
-        return ContactState(self.states, pressure, shear, approach, creepage, steps=1, settled=True)
-
-    def _unknowns(self, problem: ContactProblem) -> Array:
-        right = right_side(problem, self.contact, self.stick)
-        if problem.creep_length is self.problem.creep_length:
-            return self._divided(right)
-        # The creep lengths are the column of the creepage, so new lengths are a rank-one update
-        # (Sherman & Morrison). The divisor is the ratio of the two determinants: where it is small,
-        # the updated matrix is ill-conditioned, however it is factorised.
-        change = np.zeros(right.size)
-        longer = problem.creep_length - self.problem.creep_length
-        change[self.contact.size : -2] = longer[self.stick]
-        both = self._divided(np.stack([right, change], axis=1))
-        first, more = both[:, 0], both[:, 1]
-        divisor = 1.0 + float(more[-1])
-        if divisor == 0.0:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return np.asarray(first - more * (first[-1] / divisor))
-
-    def _divided(self, right: Array) -> Array:
-        solution, _ = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
-        return np.asarray(solution)
+    (contact,) = (states != FREE).nonzero()
+    stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
+    signs, n_c, n_s = shear_signs(states), contact.size, stick.size
+    # LAPACK is column-major and the matrix row-major, so the transpose is factorised in place.
+    # For such small systems SciPy's wrappers would cost more than LAPACK itself.
+    matrix = system_matrix(problem, contact, stick, signs)
+    factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
+    if info != 0:
+        raise np.linalg.LinAlgError("Singular matrix")
+    unknowns, _ = lapack.dgetrs(factors, pivots, right_side(problem, contact, stick), trans=1)
+    pressure = np.zeros(states.size)
+    pressure[contact] = unknowns[:n_c]
+    shear = problem.friction * signs * pressure
+    shear[stick] = unknowns[n_c : n_c + n_s]
+    # The system meets the prescribed values only to rounding; the exact ones are kept.
+    control = problem.control
+    approach, creepage = control.approach, control.creepage
+    if approach is None:
+        approach = float(unknowns[-2])
+    if creepage is None:
+        creepage = float(unknowns[-1]) + 0.0 if problem.friction > 0.0 else np.nan  # not -0
+    return ContactState(states, pressure, shear, approach, creepage, steps=1, settled=True)
 
 
 def system_matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Solvers of a contact problem, with the states of nodes given or unknown."""
+"""The solver of a contact problem that always ends: an active set, then an interior point."""
 
 from __future__ import annotations
 
@@ -9,34 +9,12 @@ import numpy as np
 from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import (
     CoupledActiveSet,
-    LinearSystem,
     next_states,
     right_side,
     solve_states,
     system_matrix,
 )
 from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States
-
-
-@dataclass(slots=True)
-class GivenStates:
-    """Solver of a contact problem whose states are given.
-
-    It reuses the last factorised system while only the lagged terms of a problem change.
-    """
-
-    _last: LinearSystem | None = None
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution with these states; the caller checks whether they are right."""
-        last = self._last
-        if (
-            last is None
-            or last.problem.influence is not problem.influence
-            or not np.array_equal(last.states, states)
-        ):
-            last = self._last = LinearSystem.of(problem, states)
-        return last.solved(problem)
 
 
 @dataclass(frozen=True, slots=True)

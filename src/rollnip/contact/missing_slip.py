@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import copysign, exp, inf, log, pi
 
@@ -11,44 +11,39 @@ import numpy as np
 
 from rollnip.contact.ends import ZoneEnd, root_at
 from rollnip.contact.layout import Layout
-from rollnip.contact.problem import STICK, Array, ContactState, Mask, State
+from rollnip.contact.problem import STICK, Array, Mask, State
 
 
 def slipping_at_edges(
     layout: Layout,
-    x: Array,
-    state: ContactState,
+    edges: Sequence[ZoneEnd],
     friction: float,
     least: float,
-    exponents: tuple[complex, ...],
     matters: Callable[[TurningSlip], bool],
 ) -> Layout:
     """Return the layout with slip zones added at edges where stick leaves out some slip.
 
     Parameters
     ----------
+    edges : all edges of the layout, trailing edge first.
     least : length of the shortest slip zone to add that `slip_beside` finds [mm].
     matters : tells which of those that `slip_by_turning` finds to add.
-    x, state, friction, exponents : as in `with_proposed_ends`.
     """
-    ends, breaks, states = layout.ends(x), layout.breaks.tolist(), layout.states.tolist()
-    edges = np.flatnonzero(layout.is_edge).tolist()
+    breaks, states = layout.breaks.tolist(), layout.states.tolist()
+    numbers = np.flatnonzero(layout.is_edge).tolist()
     # From the last edge on, so that a new zone does not change the numbers of edges still to come.
-    for edge, kappa in zip(edges[::-1], exponents[::-1], strict=True):
-        leads = layout.leads(edge)
-        if layout.states[edge - leads] != STICK:
+    for number, edge in zip(numbers[::-1], edges[::-1], strict=True):
+        if layout.states[number - edge.leads] != STICK:
             continue
-        end = ZoneEnd(x, state, int(ends[edge]), -1 if leads else 1, kappa)
-        turning = slip_by_turning(end, friction)
+        turning = slip_by_turning(edge, friction)
         if turning is not None and matters(turning):
             length, slip = turning.length, turning.state
         else:
-            length, slip = slip_beside(end, friction)
+            length, slip = slip_beside(edge, friction)
             if length <= max(least, 0.0 if turning is None else turning.extent):
                 continue
-        place = breaks[edge]
-        breaks.insert(edge + (not leads), place - length if leads else place + length)
-        states.insert(edge, slip)
+        breaks.insert(number + (not edge.leads), breaks[number] + edge.inwards * length)
+        states.insert(number, slip)
     found = Layout(np.array(breaks), np.array(states, dtype=np.int8))
     return found if found.is_proper else layout
 

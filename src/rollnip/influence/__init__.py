@@ -16,7 +16,6 @@ from rollnip.influence.surface import (
     covering_window,
     has_stiff_skin,
     is_ring,
-    joint_kernel,
     surface_compliance,
     surface_kernels,
 )
@@ -35,7 +34,6 @@ __all__ = [
     "grid_strains",
     "has_stiff_skin",
     "is_ring",
-    "joint_kernel",
     "load_weights",
     "strain_matrix",
     "surface_compliance",

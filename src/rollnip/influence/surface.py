@@ -62,25 +62,6 @@ class SurfaceKernels:
         return float(self.displacement(np.array([x]), nodes, t_z, t_x)[1][0])
 
 
-def joint_kernel(
-    upper: SurfaceKernels | None, lower: SurfaceKernels | None, *, has_friction: bool
-) -> Kernel:
-    """Return the influence functions of gap and creep, of both surfaces together.
-
-    The channels are the sum of both zz, the xz of the upper surface less that of the lower one, and
-    the sum of both xx; without friction, zz alone.
-
-    Parameters
-    ----------
-    upper, lower : None for a rigid surface; not both.
-    has_friction : whether creep and shear are needed.
-    """
-    sides = (upper, 1.0), (lower, -1.0)
-    parts = [[one.zz, sign * one.xz, one.xx] for one, sign in sides if one is not None]
-    kernels = parts[0] if len(parts) == 1 else [a + b for a, b in zip(*parts, strict=True)]
-    return Kernel.stacked(tuple(kernels[: 3 if has_friction else 1]))
-
-
 def is_ring(roller: Roller, geometry: str) -> bool:
     """Return whether the layers are rings: finite radius, rigid core, a geometry with rings."""
     curved = geometry in RINGS

@@ -12,10 +12,10 @@ from rollnip.contact import (
     ContactProblem,
     ContactState,
     Control,
-    carry,
     contact_zones,
 )
 from rollnip.contact.problem import Array
+from rollnip.finite import Spline
 from rollnip.model import FINITE, RINGS
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.changes import scale_of_creepage
@@ -62,19 +62,12 @@ class LaggedTerms:
         return replace(self, traction=half, beyond=self.traction + self.beyond - half)
 
     def carried(self, old: Mesh, new: Mesh) -> LaggedTerms:
-        """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
-        matrices = carry(old.fine, new.fine)
+        """Return these terms interpolated to another mesh."""
+        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
         rates = self.creep_length / old.dx, self.creep_offset / old.dx
-        if matrices is not None:
-            nodes, intervals = matrices
-            clearance = nodes @ self.clearance
-            length, offset = (intervals @ rate for rate in rates)
-        else:
-            clearance = np.interp(new.inner, old.inner, self.clearance)
-            middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
-            length, offset = (np.interp(places, middles, rate) for rate in rates)
-        length, offset = new.dx * length, new.dx * offset
-        return LaggedTerms(clearance, length, offset, self.traction, self.lean, self.beyond)
+        length, offset = (new.dx * Spline.natural_cubic(middles, rate)(places) for rate in rates)
+        clearance = Spline.natural_cubic(old.inner, self.clearance)(new.inner)
+        return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
 
     def change_from(
         self, before: LaggedTerms, contact: RollingContact, mesh: Mesh, state: ContactState

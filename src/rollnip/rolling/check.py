@@ -110,7 +110,7 @@ def residual(
     """
     figures = final.figures
     peak = figures.peak_pressure
-    depth = _depth(final.nip, figures.nip_width, figures.approach)
+    depth = depth_scale(final.nip, figures.nip_width, figures.approach)
     parts = [
         float(np.max(-fields.gap)) / depth,
         float(np.max(fields.pressure * np.abs(fields.gap))) / (peak * depth),
@@ -122,8 +122,8 @@ def residual(
     return largest(0.0, *parts)
 
 
-def _depth(nip: Nip, width: float, approach: float) -> float:
-    """Return the length that penetration is relative to [mm].
+def depth_scale(nip: Nip, width: float, approach: float) -> float:
+    """Return the length that overlap of the surfaces is relative to [mm].
 
     It is the approach or, if larger or for a half-space, the undeformed clearance at the edge.
     """

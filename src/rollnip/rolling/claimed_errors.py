@@ -18,6 +18,7 @@ from rollnip.contact.coupled import solve_states
 from rollnip.finite import error_of_long_columns
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rollers import Roller
 from rollnip.rolling.lengths import grips_skin, skin_thickness
 from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures
 from rollnip.rolling.power_balance import Powers, rates_of, secondary_figures_of, secondary_sizes
@@ -90,57 +91,76 @@ def secondary_claims(final: MeshSolution, spent: Powers) -> dict[str, float]:
 
     They are nan where a figure is not defined. ``spent``: the `powers` of the solution.
     """
-    nip, geometry = final.nip, final.geometry
-    errors = _with_model(final, spent)
+    nip, load, first = final.nip, final.figures.load, claims(final)
     speed = nan if nip.speed is None else nip.speed
-    load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
-    lost = _lost(errors, spent, final)
-    first, cut = claims(final), SHARE_OF_CUT * spent.cut
-    if geometry in FINITE and isfinite(first["creepage"]):
-        passed = abs(float(final.problem.weights @ final.state.shear))
-        cut = largest(cut, power_left(first["creepage"], passed, final))
-    # In equilibrium a torque equals the moment of the tractions. "second" is in equilibrium but for
-    # the third order, and its viscous loss is of the first.
-    off_upper = off_lower = 0.0
-    slip = largest(errors.friction, cut, spent.reversed_slip)
-    if geometry in FINITE:
-        off_upper = abs(spent.driving_upper - spent.moment_upper)
-        off_lower = abs(spent.driving_lower - spent.moment_lower)
-    if geometry == "finite":
-        slip = largest(slip, off_upper, off_lower)
-    out = {
-        "traction": errors.traction,
-        "torque_upper": nip.upper.radius * largest(errors.driving_upper, cut, off_upper),
-        "torque_lower": nip.lower.radius * largest(errors.driving_lower, cut, off_lower),
+    errors = _with_model(final, spent)
+    lost = _lost(errors, spent, final, first["creepage"])
+    slip, upper, lower = _power_errors(errors, spent, final, first["creepage"])
+    if isinstance(nip.tangential, Torque):
+        lower = 0.0  # it is prescribed
+    traction, passed_on = _traction_error(errors, spent, final)
+    length = sum(stop - start for start, stop in contact_intervals(final.zones))
+    # The model error of the width is taken for that of the length in contact, too.
+    shortened = largest(errors.contact_length, first["nip_width"]) / length
+    return {
+        "traction": traction,
+        "torque_upper": _torque(nip.upper, upper, passed_on),
+        "torque_lower": _torque(nip.lower, lower, passed_on),
         "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
         "rolling_resistance": lost / load,
         "peak_pressure_x": errors.peak_pressure_x,
+        "mean_pressure": load / length * (shortened + first["load"] / load),
+        "dwell_time": first["nip_width"] / speed,
+        "speed_ratio": first["creepage"] / (1.0 - half) ** 2,
     }
-    length = sum(stop - start for start, stop in contact_intervals(final.zones))
-    # The model error of the width is taken for that of the length in contact, too.
-    shortened = largest(errors.contact_length, first["nip_width"]) / length
-    out["mean_pressure"] = load / length * (shortened + first["load"] / load)
-    out["dwell_time"] = first["nip_width"] / speed
-    out["speed_ratio"] = first["creepage"] / (1.0 - half) ** 2
-    if isinstance(nip.tangential, Traction):
-        reached = float(final.problem.weights @ final.state.shear)
-        out["traction"] = abs(reached - nip.tangential.traction)
-    elif isinstance(nip.tangential, Creepage) and geometry in FINITE and isfinite(load):
+
+
+def _torque(roller: Roller, *forces: float) -> float:
+    """Return the sum of torques, each given over the radius [N/mm]; nan for a plane."""
+    radius = roller.radius
+    return nan if isinf(radius) else sum(radius * force for force in forces)
+
+
+def _power_errors(
+    errors: SecondaryFigures, spent: Powers, final: MeshSolution, creepage: float
+) -> tuple[float, float, float]:
+    """Return the errors of the slip loss and of the torques over the radii, [N/mm] each.
+
+    In equilibrium a torque equals the moment of the tractions. "second" is in equilibrium but for
+    the third order, and its viscous loss is of the first. ``creepage``: its claimed error.
+    """
+    cut, off = SHARE_OF_CUT * spent.cut, (0.0, 0.0)
+    if final.geometry in FINITE:
+        upper, lower = spent.driving_upper, spent.driving_lower
+        off = abs(upper - spent.moment_upper), abs(lower - spent.moment_lower)
+        if isfinite(creepage):
+            passed = abs(float(final.problem.weights @ final.state.shear))
+            cut = largest(cut, power_left(creepage, passed, final))
+    slip = largest(errors.friction, cut, spent.reversed_slip)
+    if final.geometry == "finite":
+        slip = largest(slip, *off)
+    upper, lower = errors.driving_upper, errors.driving_lower
+    return slip, largest(upper, cut, off[0]), largest(lower, cut, off[1])
+
+
+def _traction_error(
+    errors: SecondaryFigures, spent: Powers, final: MeshSolution
+) -> tuple[float, float]:
+    """Return the error of the traction, and what both torques have of it besides [N/mm]."""
+    tangential, traction = final.nip.tangential, errors.traction
+    if isinstance(tangential, Traction):
+        return abs(float(final.problem.weights @ final.state.shear) - tangential.traction), 0.0
+    if isinstance(tangential, Torque):
+        wanted = tangential.torque_lower * final.nip.lower.curvature
+        missed = abs(spent.driving_lower - wanted)
+        return traction + missed, missed
+    if final.geometry in FINITE and isfinite(final.figures.load):
         left = model_shares(final)["creepage"] * final.creepage_scale
         left *= traction_slope(final)
-        out["traction"] = largest(out["traction"], left)
-        out["torque_upper"] += nip.upper.radius * left
-        out["torque_lower"] += nip.lower.radius * left
-    elif isinstance(nip.tangential, Torque):
-        missed = abs(spent.driving_lower - nip.tangential.torque_lower * nip.lower.curvature)
-        out["torque_lower"] = nip.lower.radius * missed
-        out["torque_upper"] += nip.upper.radius * missed
-        out["traction"] += missed
-    for name, radius in (("torque_upper", nip.upper.radius), ("torque_lower", nip.lower.radius)):
-        out[name] = nan if isinf(radius) else out[name]
-    return out
+        return largest(traction, left), left
+    return traction, 0.0
 
 
 def traction_slope(final: MeshSolution) -> float:
@@ -196,11 +216,10 @@ def _with_model(final: MeshSolution, spent: Powers) -> SecondaryFigures:
     return SecondaryFigures(*np.maximum(errors.array(), left).tolist())
 
 
-def _lost(errors: SecondaryFigures, spent: Powers, final: MeshSolution) -> float:
-    """Return the error of the viscous loss, over V [N/mm]."""
+def _lost(errors: SecondaryFigures, spent: Powers, final: MeshSolution, creepage: float) -> float:
+    """Return the error of the viscous loss, over V [N/mm]; ``creepage``: its claimed error."""
     rates = rates_of(final.geometry, final.state.creepage)
     error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
-    creepage = claims(final)["creepage"]
     if rates == (1.0, 1.0) or isnan(creepage):
         return error
     return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
@@ -256,15 +275,7 @@ def _is_peak_unresolved(final: MeshSolution) -> bool:
 
 
 def _sizes(final: MeshSolution) -> dict[str, float]:
-    """Return the sizes that errors are relative to; that of the creepage is never zero."""
-    figures = final.figures
-    return {
-        "approach": abs(figures.approach),
-        "load": figures.load,
-        "creepage": final.creepage_scale,
-        "nip_width": figures.nip_width,
-        "peak_pressure": figures.peak_pressure,
-    }
+    return dict(zip(_NAMES, final.sizes.array().tolist(), strict=True))
 
 
 def relative_claims(final: MeshSolution) -> dict[str, float]:

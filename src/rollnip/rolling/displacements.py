@@ -140,13 +140,5 @@ class SecondFields:
                 row[:] = f(np.minimum(np.maximum(x, ends[0]), ends[1]), order) * changes
         return Displacements(four)
 
-    def of_side(self, side: int) -> SecondFields:
-        """Return the fields of the upper (0) or lower (1) surface alone, with 0 for the other."""
-        functions, rough = (
-            tuple(f if i // 2 == side else None for i, f in enumerate(four))
-            for four in (self.functions, self.rough)
-        )
-        return replace(self, functions=functions, rough=rough)
-
 
 NO_SECOND_ORDER = SecondFields()

@@ -19,7 +19,7 @@ from rollnip.rolling.mesh_solution import (
     MeshSolution,
     SecondaryFigures,
 )
-from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
+from rollnip.rolling.neglected_slip import creepage_by_slip, creepage_by_states
 from rollnip.rolling.power_balance import secondary_sizes
 from rollnip.rolling.surfaces import Mesh
 
@@ -29,10 +29,8 @@ LEAST_ERROR = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 # The same of SecondaryFigures (numbers 50000 to 50149 of tests/properties/population.py; tests
 # judge others).
 _LEAST_SECONDARY_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
-_CREEPAGE, _WIDTH, _PEAK = (
-    [one.name for one in fields(Figures)].index(name)
-    for name in ("creepage", "nip_width", "peak_pressure")
-)
+_NAMES = [one.name for one in fields(Figures)]
+_WIDTH, _PEAK = map(_NAMES.index, ("nip_width", "peak_pressure"))
 
 
 @dataclass(frozen=True)
@@ -82,7 +80,7 @@ def with_errors(
     if not isinstance(latest.nip.tangential, Creepage):
         creepage = 2.0 * latest.creepage_scale * edge / figures.nip_width
         creepage += sum(creepage_by_slip(latest, one) for one in latest.slip_left_out)
-        creepage += overlooked_states(latest)[1]
+        creepage += creepage_by_states(latest)
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(latest, history).array() + unseen
     if end_error is not None:
@@ -151,7 +149,6 @@ def estimated_error(latest: MeshSolution, history: list[RefinementLevel]) -> Fig
     latest : the solution on the last of the meshes.
     history : all mesh sizes with these zones, coarsest first.
     """
-    figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return UNKNOWN_ERROR
     counts = np.array([level.count for level in history], dtype=float)
@@ -164,9 +161,8 @@ def estimated_error(latest: MeshSolution, history: list[RefinementLevel]) -> Fig
     elif latest.peaks_beside_transition:
         order[_PEAK] = 1.0
     change = errors_from_changes(counts, values, order)
-    scales = np.abs(figures.array())
-    scales[_CREEPAGE] = latest.creepage_scale
-    floor = LEAST_ERROR * scales / count**2
+    scales = latest.sizes.array()
+    floor = LEAST_ERROR * scales / counts[-1] ** 2
     floor[_WIDTH] *= history[-1].edge_element_ratio
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*np.where(given, change, np.maximum(change, floor)).tolist())

@@ -24,7 +24,7 @@ from rollnip.rolling.estimates import (
 from rollnip.rolling.iterations import with_residual
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import negligible_slip
-from rollnip.rolling.placing import place_ends
+from rollnip.rolling.placing import Aim, place_ends
 from rollnip.rolling.power_balance import secondary_figures
 from rollnip.rolling.zone_solver import SearchState
 
@@ -65,13 +65,16 @@ def with_free_ends(
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
-        return _refined(start, count, zones_known=fewest > ENOUGH_FOR_ZONES)
+        return _refined(start, count, Aim.ENDS if fewest > ENOUGH_FOR_ZONES else Aim.ZONES)
     except np.linalg.LinAlgError:
         return None
 
 
-def _refined(state: SearchState, count: int, *, zones_known: bool) -> MeshSolution | None:
-    """Return the solution on meshes refined from size to size, as `with_free_ends` does."""
+def _refined(state: SearchState, count: int, aim: Aim) -> MeshSolution | None:
+    """Return the solution on meshes refined from size to size, as `with_free_ends` does.
+
+    ``aim`` : of the first mesh.
+    """
     tolerance, friction = state.contact.tolerance, state.contact.nip.friction
     history: list[RefinementLevel] = []
     enough = ENOUGH_FOR_ZONES * max(1e-3 / tolerance, 1.0) ** (1.0 / 3.0)
@@ -79,13 +82,8 @@ def _refined(state: SearchState, count: int, *, zones_known: bool) -> MeshSoluti
     best: MeshSolution | None = None
     roughness = inf
     while count <= most:
-        settles_figures = bool(history)  # from the second size on the error may meet the tolerance
-        placed = place_ends(
-            state,
-            count,
-            zones_known=zones_known or settles_figures,
-            settles_figures=settles_figures,
-        )
+        # From the second size on the error may meet the tolerance.
+        placed = place_ends(state, count, Aim.FIGURES if history else aim)
         if placed is None:
             break
         if not placed.layout.is_like(state.layout):
@@ -95,7 +93,7 @@ def _refined(state: SearchState, count: int, *, zones_known: bool) -> MeshSoluti
         roughness = _roughness(latest, roughness)
         if roughness > 1.0 and not history and friction == 0.0:
             # Without friction no zones can be missing: the roughness alone gives the next size.
-            count, zones_known = _next_count(count, roughness, tolerance), True
+            count, aim = _next_count(count, roughness, tolerance), Aim.ENDS
             continue
         make_secondary = partial(secondary_figures, latest)
         history.append(RefinementLevel(count, latest.figures, state.layout.breaks, make_secondary))

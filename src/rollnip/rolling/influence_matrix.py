@@ -31,20 +31,17 @@ def influence_matrix(fine: Subdivision, made: Array, shorter: Array | None) -> A
     """Return `ContactProblem.influence`: gap and creep per nodal traction (theory section 5).
 
     The creep of an interval is int (du_x/dx - u_z/R) dx of the upper minus that of the lower
-    surface. The pressure is the same on both surfaces, the shear opposite. Without friction, creep
-    and shear play no part, and their blocks are zero.
+    surface. The pressure is the same on both surfaces, the shear opposite.
 
     Parameters
     ----------
-    made : (1 or 3, N, columns) displacements zz, xz, xx of both surfaces together at nodes[1:] per
+    made : (3, N, columns) displacements zz, xz, xx of both surfaces together at nodes[1:] per
         `unit_tractions`.
     shorter : (N, 2 (N-1)) see `shorter_per_traction`; None: 0.
     """
     n = made.shape[1] - 1
     out = np.zeros((2 * n, 2 * n))
     out[:n, :n] = made[0, :-1, :n]
-    if len(made) == 1:
-        return out
     _, xz, xx = made[:, :, :n]
     np.negative(xz[:-1], out=out[:n, n:])
     np.subtract(xz[1:], xz[:-1], out=out[n:, :n])

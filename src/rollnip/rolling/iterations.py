@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from rollnip._largest import largest
 from rollnip.contact import (
+    ContactProblem,
     ContactState,
     ContactZone,
-    GivenStates,
-    Safeguarded,
     States,
     contact_zones,
 )
@@ -54,7 +54,7 @@ def solve_on_mesh(
     contact: RollingContact,
     mesh: Mesh,
     start: tuple[States, LaggedTerms, int],
-    method: GivenStates | Safeguarded,
+    solve: Callable[[ContactProblem, States], ContactState],
     settled_change: float,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> MeshSolution:
@@ -63,7 +63,7 @@ def solve_on_mesh(
     Parameters
     ----------
     start : states, lagged terms, and the number of linear systems solved before.
-    method : solver for given lagged terms.
+    solve : solver of the contact problem with given lagged terms, from initial states.
     settled_change : change of the lagged terms at which to stop, over the tolerance.
     zones : of the solution; None: derive them from it.
     """
@@ -72,7 +72,7 @@ def solve_on_mesh(
     reached: float | None = None  # the last traction for a torque that friction carries
     for _ in range(MOST_ITERATIONS):
         problem = contact_problem(contact, mesh, lagged)
-        state = method.solve(problem, states)
+        state = solve(problem, states)
         steps += state.steps
         if not state.settled and reached is not None and _is_far(reached, lagged, contact):
             lagged = lagged.nearer_to(reached)

@@ -178,15 +178,20 @@ class MeshSolution:
         """Estimated discretisation error of the secondary figures; None where unknown."""
         return None if self.make_secondary_error is None else self.make_secondary_error()
 
+    @property
+    def edges(self) -> tuple[ZoneEnd, ...]:
+        """The edges of all pieces of the contact, trailing edge first."""
+        x, fine = self.mesh.inner, self.mesh.fine
+        edges = enumerate(zip(fine.edges, fine.exponents, strict=True))
+        return tuple(
+            ZoneEnd(x, self.state, node, -1 if number % 2 else 1, kappa)
+            for number, (node, kappa) in edges
+        )
+
     @cached_property
     def slip_left_out(self) -> tuple[TurningSlip, ...]:
         """The slip zones by turning tractions that are left out at its edges."""
-        fine, x, friction = self.mesh.fine, self.mesh.inner, self.problem.friction
-        edges = zip(fine.edges, fine.exponents, strict=True)
-        found = (
-            slip_by_turning(ZoneEnd(x, self.state, edge, -1 if number % 2 else 1, kappa), friction)
-            for number, (edge, kappa) in enumerate(edges)
-        )
+        found = (slip_by_turning(edge, self.problem.friction) for edge in self.edges)
         return tuple(slip for slip in found if slip is not None)
 
     @property
@@ -263,26 +268,29 @@ class MeshSolution:
         return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * self.nip.curvature)
 
     @property
+    def sizes(self) -> Figures:
+        """Sizes that errors of the figures are relative to; that of the creepage is never zero."""
+        width, peak = self.figures.nip_width, self.figures.peak_pressure
+        approach = abs(self.figures.approach)
+        return Figures(approach, self.figures.load, self.creepage_scale, width, peak)
+
+    @property
     def error_ratio(self) -> float:
         """The largest estimated relative error over the tolerance; inf if nothing is pressed.
 
         Prescribed figures do not count.
         """
-        figures, error, nip = self.figures, self.error, self.nip
+        figures, nip = self.figures, self.nip
         if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
             return inf
-        watched = [
-            error.nip_width / figures.nip_width,
-            error.peak_pressure / figures.peak_pressure,
-        ]
-        if isinstance(nip.normal, LineLoad):
-            if not nip.has_half_space:
-                watched.append(error.approach / abs(figures.approach))
-        else:
-            watched.append(error.load / figures.load)
+        approach, load, creepage, *others = self.error.array() / self.sizes.array()
+        if not isinstance(nip.normal, LineLoad):
+            others.append(load)
+        elif not nip.has_half_space:
+            others.append(approach)
         if isfinite(figures.creepage):
-            watched.append(error.creepage / self.creepage_scale)
-        return largest(*watched) / self.contact.tolerance
+            others.append(creepage)
+        return largest(*others) / self.contact.tolerance
 
     def with_correction_of(self, contact: RollingContact) -> MeshSolution:
         """Return the solution as one of ``contact``, with the correction that this one holds."""

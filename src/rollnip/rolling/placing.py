@@ -9,6 +9,7 @@ the ends are nearly right, a solution shows whether its zones are the right ones
 from __future__ import annotations
 
 from dataclasses import replace
+from enum import IntEnum
 from math import inf, log10
 
 import numpy as np
@@ -28,14 +29,16 @@ from rollnip.rolling.zone_solver import SearchState, are_too_many, crowding_for,
 MOST_MESHES = 8
 
 
+class Aim(IntEnum):
+    """What ends are placed for, each time more exactly."""
+
+    ZONES = 0  # to find the zones
+    ENDS = 1  # where the zones are known
+    FIGURES = 2  # for a solution that may be the last: figures must not change with the ends
+
+
 def place_ends(
-    start: SearchState,
-    count: int,
-    *,
-    zones_known: bool,
-    settles_figures: bool = False,
-    follows_correction: bool = False,
-    may_be_last: bool = False,
+    start: SearchState, count: int, aim: Aim, *, follows_correction: bool = False
 ) -> SearchState | None:
     """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -46,13 +49,10 @@ def place_ends(
     ----------
     start : state of the search, with the zones and a solution to start from.
     count : rough number of elements.
-    zones_known : whether the zones are known to be right.
-    settles_figures : whether to place the ends so exactly that the figures no longer change with
-        them. Two meshes show how figures depend on ends, or one if the previous size has shown it.
+    aim : how exactly. Two meshes show how figures depend on ends, or one if the previous size has
+        shown it.
     follows_correction : whether a correction held has moved the ends and will move them again, on
         meshes like the last one. They need not be placed then, see `_have_followed`.
-    may_be_last : whether the correction may call for no other contact. Pressure and shear beside
-        the ends must then be right, wherever the ends are.
 
     Returns
     -------
@@ -66,25 +66,13 @@ def place_ends(
     most_meshes = _most_meshes(start.contact, start.layout)
     while search.meshes < most_meshes and _can_be_placed(search.layout):
         search.solve_mesh()
-        if follows_correction and _have_followed(search, may_be_last=may_be_last):
+        if follows_correction and _have_followed(search, aim):
             return search.result()
         # The figures show errors of ends only with the zones of the previous size.
-        same_zones = settles_figures and search.layout.is_like(start.layout)
-        is_placed = _is_placed_by(
-            search,
-            zones_known=zones_known,
-            same_zones=same_zones,
-            checks_bound=same_zones or may_be_last,
-        )
-        others = other_zones(
-            search.latest,
-            search.layout,
-            search.proposed,
-            search.vanishing,
-            is_placed=is_placed,
-            is_near=not zones_known and search.is_near,
-        )
-        other = search.untried(others)
+        is_new = aim is Aim.FIGURES and not search.layout.is_like(start.layout)
+        is_placed = _is_placed(search, Aim.ENDS if is_new else aim)
+        is_near = aim is Aim.ZONES and search.is_near
+        other = search.untried(other_zones(search, is_placed=is_placed, is_near=is_near))
         if other is not None:
             search.change_zones(other)
         elif not is_placed:
@@ -96,61 +84,60 @@ def place_ends(
     return None
 
 
-def _have_followed(search: EndSearch, *, may_be_last: bool) -> bool:
+def _have_followed(search: EndSearch, aim: Aim) -> bool:
     """Return whether the ends on a mesh have followed a correction that may still change.
 
     All of them lie within the tolerance of where the solution puts them: a transition that is
     misplaced by more has shears beyond the bound beside it, and the correction of such shears would
     move it again. The solution must call for no other zones. Beside a boundary layer or a short
-    zone that is not exact enough for the last contact (``may_be_last``).
+    zone that is not exact enough for the last contact: there pressure and shear must be right.
     """
-    layout, proposed, latest = search.layout, search.proposed, search.latest
-    distance = proposed.distance(layout, transitions_count=1.0)
+    proposed, latest = search.proposed, search.latest
+    distance = proposed.distance(search.layout, transitions_count=1.0)
     if not (proposed.is_proper and distance <= search.contact.tolerance):
         return False
-    if may_be_last and (_is_false_at_edge(latest) or _exceeds_bound(latest)):
+    if aim is Aim.FIGURES and (_is_false_at_edge(latest) or _exceeds_bound(latest)):
         return False
-    is_placed = _are_ends_placed(search, zones_known=True)
-    return changed_states(latest, layout, checks_contact=is_placed) is None
+    return changed_states(search, checks_contact=_are_ends_near(search, aim)) is None
 
 
-def _is_placed_by(
-    search: EndSearch, *, zones_known: bool, same_zones: bool, checks_bound: bool
-) -> bool:
-    """Return whether the ends on a mesh are placed, and nothing in its solution denies it.
-
-    Parameters
-    ----------
-    same_zones : whether figures can be compared with those of the previous size.
-    checks_bound : whether shears beyond the bound beside transitions deny it.
-    """
-    contact, layout, latest = search.contact, search.layout, search.latest
-    # Without friction figures hardly depend on the ends; at finite strain corrections need ends to
-    # be exact, whatever the figures do.
-    by_figures = same_zones and contact.nip.friction > 0.0 and not contact.has_finite_strain
+def _is_placed(search: EndSearch, aim: Aim) -> bool:
+    """Return whether the ends on a mesh are placed, and nothing in its solution denies it."""
+    contact, layout, latest, is_last = search.contact, search.layout, search.latest, aim > Aim.ENDS
     return (
-        _are_ends_placed(search, zones_known=zones_known, by_figures=by_figures)
+        _are_ends_near(search, aim)
         and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)
-        and not (by_figures and _figures_change(search))
-        and not (_is_false_at_edge(latest) or (checks_bound and _exceeds_bound(latest)))
+        and not (_figures_decide(search, aim) and _figures_change(search))
+        and not (_is_false_at_edge(latest) or (is_last and _exceeds_bound(latest)))
         and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)
     )
 
 
-def _are_ends_placed(search: EndSearch, *, zones_known: bool, by_figures: bool = False) -> bool:
+def _are_ends_near(search: EndSearch, aim: Aim) -> bool:
     """Return whether the errors of the ends are small relative to the width of the contact.
 
-    If the figures decide how exactly ends are placed (``by_figures``), the tolerance will do;
-    otherwise a tenth of it. Without friction, the edges of zones that are known are placed relative
-    to the boundary layer instead, if it is shorter, as the pressure changes within it.
+    If the figures decide how exactly ends are placed, the tolerance will do; otherwise a tenth of
+    it. Without friction, the edges of zones that are known are placed relative to the boundary
+    layer instead, if it is shorter, as the pressure changes within it.
     """
     contact, layout = search.contact, search.layout
-    most = contact.tolerance * (1.0 if by_figures else NEGLIGIBLE)
+    most = contact.tolerance * (1.0 if _figures_decide(search, aim) else NEGLIGIBLE)
     length = layout.width
-    if zones_known and contact.nip.friction == 0.0:
+    if aim > Aim.ZONES and contact.nip.friction == 0.0:
         length = min(length, boundary_layer(contact.nip))
     shortest = float(layout.lengths.min())
     return search.misplacement * layout.width <= min(most * length, NEAR_ENOUGH * shortest)
+
+
+def _figures_decide(search: EndSearch, aim: Aim) -> bool:
+    """Return whether the figures decide how exactly ends are placed.
+
+    Without friction they hardly depend on the ends; at finite strain corrections need ends to be
+    exact, whatever the figures do.
+    """
+    contact = search.contact
+    is_exact = contact.nip.friction == 0.0 or contact.has_finite_strain
+    return aim is Aim.FIGURES and not is_exact
 
 
 def _figures_change(search: EndSearch) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
 from rollnip.rolling.assemble import initial_terms
 from rollnip.rolling.changes import NEGLIGIBLE
-from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
+from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.iterations import holding_second_order, solve_on_mesh, with_residual
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.mesh_solution import MeshSolution
@@ -22,8 +22,6 @@ from rollnip.rolling.zone_solver import are_too_many, mesh_around
 BY_NODES = Safeguarded()
 """Solver that seeks the states of a contact problem node by node."""
 SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
-COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
-"""The sizes for a contact that need only be coarse."""
 
 
 class IsTooDeep(Protocol):
@@ -89,15 +87,19 @@ def free_ends_from_nodes(located: MeshSolution, most: int | None = None) -> Mesh
 
 
 def by_nodes(
-    contact: RollingContact, half_width: float, sizes: tuple[int, ...]
+    contact: RollingContact,
+    half_width: float,
+    sizes: tuple[int, ...],
+    before: MeshSolution | None = None,
 ) -> Iterator[MeshSolution]:
     """Yield the solution found node by node on each of the mesh sizes.
 
     It is the last solution of a size that has settled. One that has not settled is yielded only as
     long as none has. The sequence ends early where nothing is pressed, or friction cannot
     carry the prescribed traction.
+
+    ``before`` : a solution to start from; None: start from the estimated ``half_width`` [mm].
     """
-    before: MeshSolution | None = None
     any_settled = False
     for count in sizes:
         found, settled = _solve_at_size(contact, half_width, count, before)
@@ -107,15 +109,6 @@ def by_nodes(
         if not (found.figures.peak_pressure > 0.0 and found.has_grip):
             return
         before = found if found.settled else before
-
-
-def finer_by_nodes(before: MeshSolution) -> MeshSolution | None:
-    """Return the solution node by node on the next finer mesh; None if there is no finer one."""
-    finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
-    if not finer:
-        return None
-    found, settled = _solve_at_size(before.contact, 0.0, finer[0], before)
-    return settled or found
 
 
 def _solve_at_size(
@@ -153,7 +146,7 @@ def _solve_by_nodes(
     if before is not None:
         lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), lagged, steps
-    return solve_on_mesh(contact, mesh, start, BY_NODES, NEGLIGIBLE)
+    return solve_on_mesh(contact, mesh, start, BY_NODES.solve, NEGLIGIBLE)
 
 
 def _zones_are_known(latest: MeshSolution, before: MeshSolution | None) -> bool:

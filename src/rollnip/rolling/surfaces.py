@@ -19,11 +19,10 @@ from rollnip.influence import (
     covering_window,
     displacement_under,
     is_ring,
-    joint_kernel,
     load_weights,
 )
 from rollnip.model import Geometry
-from rollnip.nip import Nip, Torque
+from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.displacements import Displacements, Field, SecondFields
 from rollnip.rolling.influence_matrix import (
@@ -44,8 +43,6 @@ class PairKernels:
     held : displacements beyond the linear ones, kept fixed whatever the tractions; None: compute
         them from the tractions.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
-    joint : see `joint_kernel`; None where terms that depend on the solution need the two surfaces
-        separately.
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
     pressed : sum of u_z of both surfaces under elliptic pressures on contacts of any width up to
@@ -60,7 +57,6 @@ class PairKernels:
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
-    joint: Kernel | None = None
 
     @property
     def heat_beyond(self) -> tuple[float, float]:
@@ -106,15 +102,7 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
     """Return the influence functions of both rollers, tabulated on one window or from a cache."""
     cache = KernelCache() if cache is None else cache
     make = partial(_pair_kernels, nip, geometry, cache)
-    kind = geometry, has_no_lagged_terms(nip, geometry), nip.friction > 0.0
-    return cache.pair((nip.upper, nip.lower), nip.speed, kind, make)
-
-
-def has_no_lagged_terms(nip: Nip, geometry: Geometry) -> bool:
-    """Return whether no term of the contact conditions depends on the solution."""
-    if isinstance(nip.tangential, Torque):
-        return False
-    return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
+    return cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
 
 
 def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKernels:
@@ -131,10 +119,7 @@ def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKerne
         together = Kernel.stacked((parts[0].together, parts[1].together))
         normal = parts[0].zz + parts[1].zz
     pressed = Ellipses.under(normal, min(nip.upper.radius, nip.lower.radius))
-    joint = None
-    if has_no_lagged_terms(nip, geometry):
-        joint = joint_kernel(upper, lower, has_friction=nip.friction > 0.0)
-    return PairKernels(upper, lower, together, pressed, hoops=hoops, joint=joint)
+    return PairKernels(upper, lower, together, pressed, hoops=hoops)
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
@@ -153,8 +138,7 @@ class Mesh:
     inner : (N-1,) nodes that carry tractions [mm].
     dx : (N-1,) lengths of the intervals between nodes[1:] [mm].
     weights : (N-1,) load of each nodal traction [mm].
-    per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa];
-        empty where a contact needs no more than `PairKernels.joint`.
+    per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa].
     influence : of a contact problem on these nodes; empty with a sheet.
     kernels : the influence functions evaluated.
     held : displacements beyond the linear ones at nodes[1:] that ``kernels`` hold; None: none.
@@ -179,19 +163,14 @@ class Mesh:
         """
         fine = Subdivision(nodes) if fine is None else fine
         unit = unit_tractions(fine)
-        places, n = (nodes[1:], fine.nodes), nodes.size - 2
-        per_traction, influence = np.empty((0, 0, 0)), np.empty((0, 0))
-        if cls.is_bare and kernels.joint is not None:
-            made = displacement_under(kernels.joint, *places, unit)
-            influence = influence_matrix(fine, made, None)
-        else:
-            per_traction = pair_displacements(kernels, *places, unit)
-            if cls.is_bare:
-                xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
-                made = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
-                per_traction = np.ascontiguousarray(per_traction[:, :, :n])
-                shorter = shorter_per_traction(per_traction, kernels.hoops)
-                influence = influence_matrix(fine, made, shorter)
+        per_traction, n = pair_displacements(kernels, nodes[1:], fine.nodes, unit), nodes.size - 2
+        influence = np.empty((0, 0))
+        if cls.is_bare:
+            xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
+            made = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
+            per_traction = np.ascontiguousarray(per_traction[:, :, :n])
+            shorter = shorter_per_traction(per_traction, kernels.hoops)
+            influence = influence_matrix(fine, made, shorter)
         weights = load_weights(fine.nodes)
         return cls(
             nodes=nodes,
@@ -269,11 +248,9 @@ class Mesh:
     def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the linear part of the displacements at nodes[1:]."""
         tractions = np.array([state.pressure, state.shear]).T
-        if self.per_traction.size:
-            six, m, n = self.per_traction.shape  # one product is faster than six
-            made = self.per_traction.reshape(-1, n) @ tractions
-            return Displacements.under(made.reshape(six, m, 2))
-        return self.linear_displacements_at(self.nodes[1:], state)
+        six, m, n = self.per_traction.shape  # one product is faster than six
+        made = self.per_traction.reshape(-1, n) @ tractions
+        return Displacements.under(made.reshape(six, m, 2))
 
     def linear_displacements_at(self, x: Array, state: ContactState) -> Displacements:
         """Return the linear part of the displacements at ``x``."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -20,47 +20,33 @@ from rollnip.contact import (
 from rollnip.contact.features import runs
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
+from rollnip.rolling.end_search import EndSearch
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import (
     is_negligible,
-    negligible_change,
     negligible_slip,
-    overlooked_states,
 )
 from rollnip.rolling.zone_solver import SearchState
 
 _STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 
 
-def other_zones(
-    latest: MeshSolution,
-    layout: Layout,
-    proposed: Layout,
-    vanishing: Sequence[int],
-    *,
-    is_placed: bool,
-    is_near: bool,
-) -> Iterator[SearchState]:
-    """Yield the zones that a solution calls for, in the order to try them.
+def other_zones(search: EndSearch, *, is_placed: bool, is_near: bool) -> Iterator[SearchState]:
+    """Yield the zones that the last solution of a search calls for, in the order to try them.
 
     There are none if the solution is consistent with its own zones. Once its ends are placed
     they may be its own zones with other ends.
 
-    Parameters
-    ----------
-    latest, layout : the solution, and its zones.
-    proposed : these zones with the ends where the solution puts them.
-    vanishing : numbers of the zones to which solutions leave no length.
-    is_placed, is_near : whether the ends are placed, or nearly so.
+    ``is_placed``, ``is_near`` : whether the ends are placed, or nearly so.
     """
-    keeps_stick = _keeps_stick(latest)
-    for number in vanishing:
-        fewer = layout.without(number, keeps_stick=keeps_stick)
+    latest, layout, proposed = search.latest, search.layout, search.proposed
+    for number in layout.vanishing(proposed):
+        fewer = layout.without(number, keeps_stick=_keeps_stick(latest))
         if fewer is not None:
             yield SearchState(fewer, latest)
     if not (is_placed or is_near):
         return
-    wanted = changed_states(latest, layout, checks_contact=is_placed)
+    wanted = changed_states(search, checks_contact=is_placed)
     if wanted is not None:
         edges = proposed if proposed.is_proper else layout.stepped_towards(proposed)
         found = _between_edges(latest, wanted, edges)
@@ -68,16 +54,12 @@ def other_zones(
         if found is not None and (is_placed or not found.layout.is_like(layout)):
             yield found
     if is_placed:
-        yield from _zones_that_states_do_not_show(latest, layout, proposed)
+        yield from _zones_that_states_do_not_show(search)
 
 
-def _zones_that_states_do_not_show(
-    latest: MeshSolution, layout: Layout, proposed: Layout
-) -> Iterator[SearchState]:
-    """Yield the zones that a solution with placed ends calls for, though no node's state does.
-
-    Parameters are those of `other_zones`.
-    """
+def _zones_that_states_do_not_show(search: EndSearch) -> Iterator[SearchState]:
+    """Yield the zones that a solution with placed ends calls for, though no node's state does."""
+    latest, layout = search.latest, search.layout
     slipping = _with_slip_at_edges(latest, layout)
     if slipping is not None:
         yield SearchState(slipping, latest)
@@ -85,15 +67,10 @@ def _zones_that_states_do_not_show(
         opened = _with_gap_at_tension(latest, layout)
         if opened is not None:
             yield SearchState(opened, latest)
-    wanted, change = overlooked_states(latest)
-    if not change <= negligible_change(latest):
-        found = _between_edges(latest, wanted, proposed)
-        if found is not None:
-            yield found
 
 
-def changed_states(latest: MeshSolution, layout: Layout, *, checks_contact: bool) -> States | None:
-    """Return the states that a solution calls for; None if no node in contact changes.
+def changed_states(search: EndSearch, *, checks_contact: bool) -> States | None:
+    """Return the states that the last solution calls for; None if no node in contact changes.
 
     Violations up to `NEGLIGIBLE` times the tolerance change no state. If all of the tolerance
     were allowed, slip zones at edges would be missed on which the creepage of a wide, thin
@@ -104,13 +81,14 @@ def changed_states(latest: MeshSolution, layout: Layout, *, checks_contact: bool
     ``checks_contact``: whether to check contact too; until the edges are placed, only stick and
     slip are checked.
     """
+    latest = search.latest
     slack, given = latest.contact.tolerance, latest.state.states
     if not latest.contact.has_finite_strain:
         slack *= NEGLIGIBLE
     implied = partial(next_states, latest.problem, latest.state, slack)
     wanted = implied(holds_contact=not checks_contact)
     differs = (wanted != given) & (given != State.FREE)
-    ends = layout.ends(latest.problem.x)
+    ends = search.layout.ends(latest.problem.x)
     differs[ends] = False  # a node at an end belongs to both zones
     differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
     for slip in negligible_slip(latest):
@@ -162,11 +140,9 @@ def _with_slip_at_edges(latest: MeshSolution, layout: Layout) -> Layout | None:
         return None
     slipping = slipping_at_edges(
         layout,
-        latest.mesh.inner,
-        latest.state,
+        latest.edges,
         friction,
         latest.contact.shortest_zone(layout.width),
-        latest.mesh.fine.exponents,
         matters=lambda slip: not is_negligible(latest, slip),
     )
     return None if slipping.is_like(layout) else slipping

@@ -10,7 +10,6 @@ import numpy as np
 from rollnip.contact import (
     NEAR_ENOUGH,
     Crowding,
-    GivenStates,
     Layout,
     cosine_nodes,
     crowding_of,
@@ -18,6 +17,7 @@ from rollnip.contact import (
     subdivided,
     uncrowded,
 )
+from rollnip.contact.coupled import solve_states
 from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE, PIECES_PER_ELEMENT
 from rollnip.contact.problem import Array, Indices
 from rollnip.influence import has_stiff_skin
@@ -142,7 +142,7 @@ def solve_with_zones(state: SearchState, shape: Shape) -> tuple[MeshSolution, La
     # Under a stiff skin the pressure beside an edge responds many times more to a change of the
     # gap, and the shear to a change of the creep.
     settled_change = NEGLIGIBLE / _MORE_UNDER_SKIN if has_skin else NEGLIGIBLE
-    latest = solve_on_mesh(contact, mesh, start, GivenStates(), settled_change, layout.zones)
+    latest = solve_on_mesh(contact, mesh, start, solve_states, settled_change, layout.zones)
     proposed = layout.with_proposed_ends(
         mesh.inner, latest.state, nip.friction, mesh.fine.exponents
     )

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rollnip._largest import largest
 from rollnip.contact import ContactState, State
 from rollnip.nip import Nip
+from rollnip.rolling.check import depth_scale
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.iterate import AnyIterate
@@ -65,12 +66,9 @@ def violation_outside(
 ) -> float:
     """Return the overlap of surfaces and sheet beside an interface, or tensile pressure, relative.
 
-    Overlap is relative to the approach, or to the depth of the gap at the edge if that is larger;
-    tensile pressure to the peak pressure.
+    Overlap is relative to `depth_scale`, tensile pressure to the peak pressure.
     """
-    depth = 0.125 * nip.curvature * width**2
-    if not nip.has_half_space:
-        depth = max(depth, abs(approach))
+    depth = depth_scale(nip, width, approach)
     peak = float(np.max(pressure))
     pull = float(np.max(-pressure)) / peak if peak > 0.0 else inf
     return largest(0.0, float(np.max(-gap)) / depth, pull)

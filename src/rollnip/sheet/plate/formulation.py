@@ -12,7 +12,7 @@ from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
 from rollnip.sheet.lagged_terms import sheet_rate
-from rollnip.sheet.plate.interface import SIGNS, interface_peak
+from rollnip.sheet.plate.interface import SIGNS, fields_of_side, interface_peak
 from rollnip.sheet.plate.iterate import PlateIterate, overlap
 from rollnip.sheet.plate.lagged_terms import (
     change_of_terms,
@@ -105,7 +105,7 @@ class PlateFormulation:
         nip, held, meshes = self.contact.nip, self.contact.kernels.held, [*iterate.problem.meshes]
         for side, roller in enumerate((nip.upper, nip.lower)):
             if not roller.is_rigid and held is not None:
-                own = replace(meshes[side].kernels, held=held.of_side(side))
+                own = replace(meshes[side].kernels, held=fields_of_side(held, side))
                 meshes[side] = meshes[side].holding(own)
         problem = replace(iterate.problem, meshes=(meshes[0], meshes[1]))
         lagged = lagged_terms(problem, "finite", iterate.state, iterate.lagged)

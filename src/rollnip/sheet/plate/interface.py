@@ -14,7 +14,7 @@ from rollnip.contact import Subdivision
 from rollnip.influence import load_weights
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
-from rollnip.rolling.displacements import Displacements
+from rollnip.rolling.displacements import Displacements, SecondFields
 from rollnip.rolling.mesh_solution import peaks_alike
 from rollnip.rolling.surfaces import Mesh
 
@@ -49,11 +49,20 @@ def interface_mesh(
         lower=kernels.lower if side == 1 else None,
         second_upper=kernels.second_upper if side == 0 else None,
         second_lower=kernels.second_lower if side == 1 else None,
-        held=None if kernels.held is None else kernels.held.of_side(side),
+        held=None if kernels.held is None else fields_of_side(kernels.held, side),
         together=surface.together,
         hoops=(hoops[0], hoops[1]),
     )
     return InterfaceMesh.on(nodes, alone, fine)
+
+
+def fields_of_side(held: SecondFields, side: int) -> SecondFields:
+    """Return the fields of the upper (0) or lower (1) surface alone, with 0 for the other."""
+    functions, rough = (
+        tuple(f if number // 2 == side else None for number, f in enumerate(four))
+        for four in (held.functions, held.rough)
+    )
+    return replace(held, functions=functions, rough=rough)
 
 
 def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> InterfaceMesh:

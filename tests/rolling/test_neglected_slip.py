@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import Layout, elements_of_zones
+from rollnip.contact import Layout, State, elements_of_zones
 from rollnip.rolling import zone_search
-from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, creepage_by_states
+from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, overlooked_states
 from rollnip.rolling.zone_solver import SearchState, crowding_for, solve_with_zones
 
 # Its surfaces are so unlike that tractions turn beside the edges.
@@ -70,11 +70,15 @@ def test_states_that_nodes_call_for_change_the_creepage_more_than_the_shear():
     sticking = replace(final, problem=problem)
     over = np.abs(final.state.shear) - 0.3 * final.state.pressure
     assert 0.0 < over.max() < 0.01 * 0.3 * final.figures.peak_pressure
-    assert creepage_by_states(sticking) > 0.2 * abs(final.figures.creepage)
+    states, change = overlooked_states(sticking)
+    differs = states != final.state.states
+    assert differs.any()
+    assert not np.any(differs & (final.state.states == State.FREE))
+    assert change > 0.2 * abs(final.figures.creepage)
     # nothing changes where the creepage is given, or there is no friction
     given = replace(problem.control, creepage=1e-3, traction=None)
-    assert creepage_by_states(replace(final, problem=replace(problem, control=given))) == 0.0
-    assert creepage_by_states(replace(final, problem=replace(problem, friction=0.0))) == 0.0
+    assert overlooked_states(replace(final, problem=replace(problem, control=given)))[1] == 0.0
+    assert overlooked_states(replace(final, problem=replace(problem, friction=0.0)))[1] == 0.0
 
 
 def test_misplaced_ends_change_the_creepage_as_claimed():

@@ -19,7 +19,7 @@ from rollnip.rolling.mesh_solution import (
     MeshSolution,
     SecondaryFigures,
 )
-from rollnip.rolling.neglected_slip import creepage_by_slip, creepage_by_states
+from rollnip.rolling.neglected_slip import creepage_by_slip, overlooked_states
 from rollnip.rolling.power_balance import secondary_sizes
 from rollnip.rolling.surfaces import Mesh
 
@@ -80,7 +80,7 @@ def with_errors(
     if not isinstance(latest.nip.tangential, Creepage):
         creepage = 2.0 * latest.creepage_scale * edge / figures.nip_width
         creepage += sum(creepage_by_slip(latest, one) for one in latest.slip_left_out)
-        creepage += creepage_by_states(latest)
+        creepage += overlooked_states(latest)[1]
     unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
     error = estimated_error(latest, history).array() + unseen
     if end_error is not None:

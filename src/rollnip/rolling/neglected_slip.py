@@ -14,7 +14,7 @@ from math import sqrt
 
 import numpy as np
 
-from rollnip.contact import Layout, State, TurningSlip, next_states
+from rollnip.contact import Layout, State, States, TurningSlip, next_states
 from rollnip.contact.coupled import solve_states
 from rollnip.nip import Creepage, Nip
 from rollnip.rolling.lengths import thinnest_covering
@@ -63,13 +63,17 @@ def creepage_by_ends(nip: Nip, layout: Layout, proposed: Layout) -> float:
     return _CREEPAGE_BY_SLIP * 0.5 * layout.width * nip.curvature * share
 
 
-def is_negligible(latest: MeshSolution, slip: TurningSlip) -> bool:
-    """Return whether slip that is left out need not be looked for: figures hardly depend on it.
+def negligible_change(latest: MeshSolution) -> float:
+    """Return the change of the creepage up to which slip need not be looked for.
 
-    It changes the creepage by at most a quarter of what the tolerance allows; the rest is left to
-    the estimated errors.
+    It is a quarter of what the tolerance allows; the rest is left to the estimated errors.
     """
-    return creepage_by_slip(latest, slip) <= 0.25 * latest.contact.tolerance * latest.creepage_scale
+    return 0.25 * latest.contact.tolerance * latest.creepage_scale
+
+
+def is_negligible(latest: MeshSolution, slip: TurningSlip) -> bool:
+    """Return whether slip that is left out need not be looked for: figures hardly depend on it."""
+    return creepage_by_slip(latest, slip) <= negligible_change(latest)
 
 
 def negligible_slip(latest: MeshSolution) -> list[TurningSlip]:
@@ -83,8 +87,8 @@ def tolerable_slip(latest: MeshSolution) -> list[TurningSlip]:
     return [slip for slip in latest.slip_left_out if creepage_by_slip(latest, slip) <= most]
 
 
-def creepage_by_states(latest: MeshSolution) -> float:
-    """Return by how much states that nodes call for, however little, change the creepage.
+def overlooked_states(latest: MeshSolution) -> tuple[States, float]:
+    """Return the states that nodes call for, however little, and what these change of the creepage.
 
     The change is found by solving with these states on the same mesh. Nodes next to the ends of
     zones keep their state, as the ends may be misplaced, and so do those that slip left out covers,
@@ -93,7 +97,7 @@ def creepage_by_states(latest: MeshSolution) -> float:
     """
     problem, state = latest.problem, latest.state
     if problem.friction == 0.0 or problem.control.creepage is not None:
-        return 0.0
+        return state.states, 0.0
     wanted = next_states(problem, state, 0.0, holds_contact=True)
     for end in latest.mesh.fine.inner_breaks:
         beside = slice(end - 1, end + 2)
@@ -102,5 +106,5 @@ def creepage_by_states(latest: MeshSolution) -> float:
         wanted = np.where(slip.covers(problem.x), state.states, wanted)
     wanted[state.states == State.FREE] = State.FREE
     if np.array_equal(wanted, state.states):
-        return 0.0
-    return abs(solve_states(problem, wanted).creepage - state.creepage)
+        return wanted, 0.0
+    return wanted, abs(solve_states(problem, wanted).creepage - state.creepage)

@@ -24,7 +24,9 @@ from rollnip.rolling.end_search import EndSearch
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.neglected_slip import (
     is_negligible,
+    negligible_change,
     negligible_slip,
+    overlooked_states,
 )
 from rollnip.rolling.zone_solver import SearchState
 
@@ -67,6 +69,11 @@ def _zones_that_states_do_not_show(search: EndSearch) -> Iterator[SearchState]:
         opened = _with_gap_at_tension(latest, layout)
         if opened is not None:
             yield SearchState(opened, latest)
+    wanted, change = overlooked_states(latest)
+    if not change <= negligible_change(latest):
+        found = _between_edges(latest, wanted, search.proposed)
+        if found is not None:
+            yield found
 
 
 def changed_states(search: EndSearch, *, checks_contact: bool) -> States | None:

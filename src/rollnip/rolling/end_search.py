@@ -140,8 +140,16 @@ class EndSearch:
         self.last = layout, figures
 
     def untried(self, others: Iterable[SearchState]) -> SearchState | None:
-        """Return the first candidate whose zones were not tried before; None if there is none."""
-        return next((other for other in others if other.layout.key not in self.tried), None)
+        """Return the first candidate not tried before; fewer zones than now may be retried."""
+        count = self.layout.states.size
+        return next(
+            (
+                other
+                for other in others
+                if other.layout.states.size < count or other.layout.key not in self.tried
+            ),
+            None,
+        )
 
     def change_zones(self, other: SearchState) -> None:
         """Go on with other zones."""

@@ -75,7 +75,7 @@ def _refined(state: SearchState, count: int, aim: Aim) -> MeshSolution | None:
 
     ``aim`` : of the first mesh.
     """
-    tolerance = state.contact.tolerance
+    tolerance, friction = state.contact.tolerance, state.contact.nip.friction
     history: list[RefinementLevel] = []
     enough = ENOUGH_FOR_ZONES * max(1e-3 / tolerance, 1.0) ** (1.0 / 3.0)
     most = _MOST_TIMES_FIRST * max(enough, count)
@@ -91,6 +91,10 @@ def _refined(state: SearchState, count: int, aim: Aim) -> MeshSolution | None:
         state, latest = placed, placed.solution
         count = elements_without_crowding(latest)
         roughness = _roughness(latest, roughness)
+        if roughness > 1.0 and not history and friction == 0.0:
+            # Without friction no zones can be missing: the roughness alone gives the next size.
+            count, aim = _next_count(count, roughness, tolerance), Aim.ENDS
+            continue
         make_secondary = partial(secondary_figures, latest)
         history.append(RefinementLevel(count, latest.figures, state.layout.breaks, make_secondary))
         best = latest = with_errors(latest, history, state.end_error)

@@ -15,7 +15,6 @@ from rollnip.contact import (
     contact_zones,
 )
 from rollnip.contact.problem import Array
-from rollnip.finite import Spline
 from rollnip.model import FINITE, RINGS
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.changes import scale_of_creepage
@@ -65,8 +64,8 @@ class LaggedTerms:
         """Return these terms interpolated to another mesh."""
         middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
         rates = self.creep_length / old.dx, self.creep_offset / old.dx
-        length, offset = (new.dx * Spline.natural_cubic(middles, rate)(places) for rate in rates)
-        clearance = Spline.natural_cubic(old.inner, self.clearance)(new.inner)
+        length, offset = (new.dx * np.interp(places, middles, rate) for rate in rates)
+        clearance = np.interp(new.inner, old.inner, self.clearance)
         return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
 
     def change_from(

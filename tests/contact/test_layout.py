@@ -382,7 +382,7 @@ def test_a_longer_zone_does_not_vanish_for_an_end_without_a_place():
     proposed = Layout(np.array([0.0, 1.0, np.inf, 4.0]), states)
     for breaks, vanish in (([0.0, 1.0, 3.0, 4.0], True), ([0.0, 1.0, 1.2, 4.0], False)):
         layout = Layout(np.array(breaks), states)
-        assert layout.vanishing(proposed) == ([2] if vanish else [])
+        assert layout.vanishing(proposed) == ({2} if vanish else set())
 
 
 def test_a_smooth_end_is_found_further_inside_where_the_first_nodes_tell_none():

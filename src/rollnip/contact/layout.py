@@ -192,7 +192,7 @@ class Layout:
         moves = (proposed.breaks - self.breaks).clip(least, most)
         return Layout(self.breaks + moves, self.states)
 
-    def vanishing(self, proposed: Layout) -> list[int]:
+    def vanishing(self, proposed: Layout) -> set[int]:
         """Return the numbers of the zones that would have no length with the proposed breaks.
 
         A break whose proposed place is infinite means only that its zone extends further. Within
@@ -204,7 +204,7 @@ class Layout:
             place = places[number]
             if (place == inf and ahead > behind) or (place == -inf and behind > ahead):
                 places[number] = self.breaks.item(number)
-        return [number for number, (a, b) in enumerate(pairwise(places)) if not b > a]
+        return {number for number, (a, b) in enumerate(pairwise(places)) if not b > a}
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
         """Return the layout without zone ``number``, which its neighbours take over.

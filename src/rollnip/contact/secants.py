@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.linalg import lapack
@@ -45,6 +45,7 @@ class Secants:
     _longest: float = 0.0
     _unit: Array | None = None
     _bracket: tuple[Array, Array] | None = None
+    _vanishing: set[int] = field(default_factory=set)
 
     def forget(self) -> None:
         """Forget the last mesh, as its moves do not compare with those on a different mesh.
@@ -130,3 +131,8 @@ class Secants:
         out = np.where(away, proposed, limited)
         out[between] = 0.5 * (low[between] + high[between])
         return out
+
+    def vanishing(self, layout: Layout, proposed: Layout) -> list[int]:
+        """Return the numbers of the zones to which two successive solutions leave no length."""
+        before, self._vanishing = self._vanishing, layout.vanishing(proposed)
+        return sorted(before & self._vanishing)

@@ -46,6 +46,7 @@ class EndSearch:
     tried : keys of zones tried before.
     latest : the solution on the last mesh.
     proposed : its zones with the ends where the solution puts them.
+    vanishing : numbers of the zones to which the last two solutions leave no length.
     next_layout : its zones with the ends at the next places to try.
     misplacement : distance of the ends from the proposed places, over the width.
     """
@@ -61,6 +62,7 @@ class EndSearch:
     tried: set[bytes] = field(default_factory=set)
     latest: MeshSolution = field(init=False)
     proposed: Layout = field(init=False)
+    vanishing: list[int] = field(init=False)
     next_layout: Layout = field(init=False)
     misplacement: float = field(init=False)
 
@@ -99,6 +101,7 @@ class EndSearch:
         self.meshes += 1
         layout, shape = self.layout, self._choose_shape()
         self.latest, self.proposed = solve_with_zones(self.state, shape)
+        self.vanishing = self.secants.vanishing(layout, self.proposed)
         self.misplacement = self.proposed.distance(layout)
         self.least_misplacement = min(self.least_misplacement, self.misplacement)
         self.next_layout = self.secants.next_layout(

@@ -42,7 +42,7 @@ def other_zones(search: EndSearch, *, is_placed: bool, is_near: bool) -> Iterato
     ``is_placed``, ``is_near`` : whether the ends are placed, or nearly so.
     """
     latest, layout, proposed = search.latest, search.layout, search.proposed
-    for number in layout.vanishing(proposed):
+    for number in search.vanishing:
         fewer = layout.without(number, keeps_stick=_keeps_stick(latest))
         if fewer is not None:
             yield SearchState(fewer, latest)

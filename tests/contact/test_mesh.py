@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from rollnip.contact import (
+    Subdivision,
+    carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
@@ -153,6 +155,32 @@ def test_a_square_root_is_a_straight_line_in_the_number():
     cubic = np.max(np.abs(fine.values @ values - exact)[1:-1])
     straight = np.max(np.abs(np.interp(fine.nodes, nodes, values) - exact)[1:-1])
     assert cubic < 0.025 * straight
+
+
+@pytest.mark.parametrize("between", [False, True])
+@pytest.mark.parametrize(("before", "after"), [((8,), (13,)), ((9, 6), (7, 20)), ((6,), (6,))])
+def test_values_are_carried_zone_by_zone_as_cubics(before, after, between):
+    def cubic(elements):
+        values = []
+        for zone, n in enumerate(elements):
+            t = (np.arange(n) + (0.5 if between else 0.0)) / n
+            values.append(1.0 + (zone + 2.0) * t * (1.0 - t) * (0.3 - t))
+        return np.append(np.concatenate(values), 1.0)
+
+    old, new = of_unit_zones(before), of_unit_zones(after)
+    np.testing.assert_allclose(carry(old, new)[between] @ cubic(before), cubic(after), atol=1e-13)
+
+
+def of_unit_zones(elements, crowding=None):
+    counts, breaks = np.array(elements), np.arange(len(elements) + 1.0)
+    return subdivided(cosine_nodes(breaks, counts, crowding), counts, crowding)
+
+
+def test_nothing_is_carried_between_other_zones():
+    one = of_unit_zones((8,))
+    assert carry(one, of_unit_zones((8, 8))) is None
+    assert carry(one, of_unit_zones((8,), ((0.25, 0.25),))) is None
+    assert carry(Subdivision(np.arange(9.0)), Subdivision(np.arange(9.0))) is None
 
 
 @pytest.mark.parametrize("crowd", [2.0**-3, 2.0**-10, 2.0**-20])

@@ -9,7 +9,7 @@ import rollnip as rn
 from rollnip.contact import ContactState, State, left_out_of_creep
 from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import RollingContact, fields_at, hoop_curvature, pair_kernels
-from rollnip.rolling.assemble import LaggedTerms, contact_problem, initial_terms, lagged_terms
+from rollnip.rolling.assemble import contact_problem, initial_terms, lagged_terms
 from rollnip.rolling.surfaces import Mesh
 
 FOAM = rn.Elastic(modulus=0.5, poisson=0.1)
@@ -33,20 +33,6 @@ def test_clearance_is_the_parabola():
     contact, _, problem = pair((rn.Layer(2.0, FOAM),), ())
     parabola = 0.5 * contact.nip.curvature * problem.x**2
     np.testing.assert_allclose(problem.clearance, parabola, rtol=1e-14)
-
-
-def test_terms_are_interpolated_to_another_mesh():
-    """Straight lines stay as they are; the terms of the creep are those of its rate."""
-    contact, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
-    other = Mesh.on(graded_nodes(np.array([-1.9, 1.8]), 40), contact.kernels)
-    one, two = (
-        LaggedTerms(1.0 + x.inner, x.dx * (2.0 - rates), x.dx * rates, 0.3, 0.2, 0.1)
-        for x, rates in ((m, 0.5 * (m.nodes[1:-1] + m.nodes[2:])) for m in (mesh, other))
-    )
-    found = one.carried(mesh, other)
-    for name in ("clearance", "creep_length", "creep_offset"):
-        np.testing.assert_allclose(getattr(found, name), getattr(two, name), atol=1e-12)
-    assert (found.traction, found.lean, found.beyond) == (0.3, 0.2, 0.1)
 
 
 def test_identical_coverings_do_not_couple():

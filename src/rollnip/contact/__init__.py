@@ -9,6 +9,7 @@ from rollnip.contact.layout import NEAR_ENOUGH, Layout
 from rollnip.contact.mesh import (
     Crowding,
     Subdivision,
+    carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
@@ -43,6 +44,7 @@ __all__ = [
     "Subdivision",
     "TurningSlip",
     "ZoneEnd",
+    "carry",
     "contact_intervals",
     "contact_zones",
     "cosine_nodes",

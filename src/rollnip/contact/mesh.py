@@ -122,6 +122,49 @@ def subdivided(
     return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, pieces)
 
 
+def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
+    """Return matrices that interpolate values to another mesh of the same zones, zone by zone.
+
+    The interpolation is cubic in the node index, as accurate as that of tractions between nodes.
+
+    Parameters
+    ----------
+    before, after : the meshes interpolated from and to.
+
+    Returns
+    -------
+    Two matrices (sum of elements after + 1, sum of those before + 1): for values at nodes, and for
+    values of the intervals that begin at them; the interval beyond the leading edge keeps its own.
+    None where the meshes differ in the number or the crowding of their zones, or have none.
+    """
+    if before.crowding != after.crowding or not before.elements:
+        return None
+    counts = before.elements, after.elements
+    return _carry(*counts, between=False), _carry(*counts, between=True)
+
+
+def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) -> Array:
+    out = np.zeros((sum(after) + 1, sum(before) + 1))
+    row = column = 0
+    for old, new in zip(before, after, strict=True):
+        # The last row of a zone is the first of the next one.
+        zone = _carry_zone(old, new, between=between)
+        out[row : row + new, column : column + zone.shape[1]] = zone
+        row, column = row + new, column + old
+    out[-1, -1] = 1.0
+    return out
+
+
+@lru_cache(maxsize=128)
+def _carry_zone(old: int, new: int, *, between: bool) -> Array:
+    """Return the rows of `_carry` for one zone, without its last row."""
+    shift = 0.5 if between else 0.0
+    places: Array = (np.arange(float(new)) + shift) * (old / new) - shift
+    out = cubic_matrix(places, old if between else old + 1)
+    out.setflags(write=False)
+    return out
+
+
 def cubic_error(
     values: Array,
     nodes: Array,

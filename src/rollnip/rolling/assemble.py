@@ -12,6 +12,7 @@ from rollnip.contact import (
     ContactProblem,
     ContactState,
     Control,
+    carry,
     contact_zones,
 )
 from rollnip.contact.problem import Array
@@ -61,12 +62,19 @@ class LaggedTerms:
         return replace(self, traction=half, beyond=self.traction + self.beyond - half)
 
     def carried(self, old: Mesh, new: Mesh) -> LaggedTerms:
-        """Return these terms interpolated to another mesh."""
-        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
+        """Return these terms interpolated to another mesh, zone by zone if both have like zones."""
+        matrices = carry(old.fine, new.fine)
         rates = self.creep_length / old.dx, self.creep_offset / old.dx
-        length, offset = (new.dx * np.interp(places, middles, rate) for rate in rates)
-        clearance = np.interp(new.inner, old.inner, self.clearance)
-        return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
+        if matrices is not None:
+            nodes, intervals = matrices
+            clearance = nodes @ self.clearance
+            length, offset = (intervals @ rate for rate in rates)
+        else:
+            clearance = np.interp(new.inner, old.inner, self.clearance)
+            middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
+            length, offset = (np.interp(places, middles, rate) for rate in rates)
+        length, offset = new.dx * length, new.dx * offset
+        return LaggedTerms(clearance, length, offset, self.traction, self.lean, self.beyond)
 
     def change_from(
         self, before: LaggedTerms, contact: RollingContact, mesh: Mesh, state: ContactState

@@ -152,4 +152,4 @@ def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out
     assert abs(found.figures.creepage - fine.figures.creepage) < found.error.creepage
     here, leading = (creepage_by_slip(found, one) for one in (slip, replace(slip, leads=True)))
     share = slip.length / found.figures.nip_width
-    assert here == pytest.approx(2.0 / 3.0 * leading * share, abs=0.0)
+    assert here == pytest.approx(2.0 / 3.0 * leading * share, rel=1e-12)

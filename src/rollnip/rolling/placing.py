@@ -30,7 +30,7 @@ MOST_MESHES = 8
 
 
 class Aim(IntEnum):
-    """What ends are placed for, each time more exactly."""
+    """The purpose of placing ends; each one asks for more exact ends than the one before."""
 
     ZONES = 0  # to find the zones
     ENDS = 1  # where the zones are known

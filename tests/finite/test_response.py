@@ -140,13 +140,13 @@ def test_nothing_moves_without_pressure():
 def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
     """Elements are off alike at finite strain and in linear theory: it matters little where.
 
-    The contact has moved by a hundredth of its width since the mesh was made, with dense columns
+    The contact has moved by a fiftieth of its width since the mesh was made, with dense columns
     where the edges were: 0.5 % of the largest correction.
     """
     monkeypatch.setattr(response, "_STEP_TOLERANCE", 0.0)
     nodes, p, q = tractions(0.15)
     kept, anew = (response_of(COVERINGS["rubber"]) for _ in range(2))
-    kept.correction(nodes - 0.0198 * HALF, p, q)
+    kept.correction(nodes - 0.0396 * HALF, p, q)
     x = np.linspace(-0.98, 0.98, 99) * HALF
     old, new = (np.stack([f(x) for f in one.correction(nodes, p, q)]) for one in (kept, anew))
     assert np.any(old != new)
@@ -162,7 +162,7 @@ def test_a_mesh_laid_by_the_expected_correction_stays(monkeypatch):
         return inner(*given)
 
     monkeypatch.setattr(FiniteResponse, "_remeshed", counted)
-    nodes, p, q = tractions(0.4)
+    nodes, p, q = tractions(0.5)
     q *= -2.0
     twice, once = response_of(COVERINGS["rubber"]), response_of(COVERINGS["rubber"])
     wanted = twice.correction(nodes, p, q)

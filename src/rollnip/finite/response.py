@@ -33,8 +33,10 @@ CUT = 150.0
 _NEAR = 4.0  # half-widths beyond which the correction is not needed
 _FRONT = 0.8  # largest arc of the front side, over the radius: x increases with the arc there
 _SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
-_SAME_PLACE = 0.01  # largest move of column ends with which it is, over the width of the contact
-_STEP_TOLERANCE = 0.01  # tolerance of equilibria, over their first Newton step
+# Largest move of column ends with which it is, over the width of the contact, and the same under a
+# stiff skin: there pressures change within its thickness.
+_SAME_PLACE, _SAME_PLACE_UNDER_SKIN = 0.02, 0.01
+_STEP_TOLERANCE = 0.03  # tolerance of equilibria, over their first Newton step
 # The same of the first one: its first step is not a change, but finite strain as a whole.
 _FIRST_STEP_TOLERANCE = 1e-4
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
@@ -314,7 +316,9 @@ class FiniteResponse:
     ) -> _LoadedMesh:
         """Return the equilibrium under these tractions, on the last mesh if that lies well."""
         last, tractions = self._mesh, applied.as_function
-        tolerance = _SAME_PLACE * float(np.ptp(places[loaded]))
+        has_skin = self._columns.skin < np.inf
+        same_place = _SAME_PLACE_UNDER_SKIN if has_skin else _SAME_PLACE
+        tolerance = same_place * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
             state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
             return replace(last, state=state, applied=applied)

@@ -35,7 +35,6 @@ from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.rolling_contact import RollingContact
 
 MOST_CORRECTIONS = MOST_ITERATIONS  # with one cut-off
-SMALL_CHANGE = 0.05  # change of the correction in an iteration below which that may be the last one
 _MOST_RESTARTS = 3  # of the contact from its first mesh, with one cut-off
 # Factors of the cut-off, tried in turn: beside an edge that slips at strains of two and more the
 # iteration may not converge with the first. Which one it needs is not known beforehand; the error
@@ -174,7 +173,7 @@ def _iterate(
         iterations = iteration + 1
         updated = contact.holding(new)
         before, change = change, _change_of_terms(updated, latest)
-        if stage is ContactStage.REFINED and change < SMALL_CHANGE and is_full_load:
+        if stage is ContactStage.REFINED and is_full_load:
             checked = _with_own_correction(updated, latest, change)
             violation, cut = checked.residual / tolerance, checked.cut / tolerance
             if best.may_stop(checked, violation, change / tolerance, cut):

@@ -25,7 +25,6 @@ from rollnip.all_orders.corrections import PairCorrection, RollerTractions
 from rollnip.all_orders.iteration import (
     CUT_FACTORS,
     MOST_CORRECTIONS,
-    SMALL_CHANGE,
     with_iteration_tolerance,
 )
 from rollnip.finite import NoEquilibriumError
@@ -166,7 +165,7 @@ def _iterate_until_settled(
         own = smooth.with_corrections(iterate)
         before, change = change, own.change
         to_come = to_come_after(change, before) / contact.tolerance
-        if refined is not None and change < SMALL_CHANGE and is_whole:
+        if refined is not None and is_whole:
             missed = formulation.residual_with_terms_of(iterate, own)
             found = on_last_mesh(smooth, refined, own, missed)
             if least.may_stop((smooth, found, own), found.residual / contact.tolerance, to_come):

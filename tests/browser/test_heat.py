@@ -269,7 +269,11 @@ def test_a_first_balance_is_one_click_and_goes_with_another(fresh):
     assert not page.is_visible("#chart-heat")
     page.click("#give-heat")
     fresh.rest("heat")
-    assert cell(fresh, "hot_spot", 1) >= 23
+    assert cell(fresh, "hot_spot", 1) == 23  # the rubber of the first design loses nothing
+    assert "nothing warms up" in page.inner_text("#heat-verdict")
+    page.click("#runaway-go")
+    fresh.until("document.getElementById('runaway-said').classList.contains('wrong')")
+    assert page.inner_text("#runaway-said").startswith("Heat: No heat arises where")
     page.click("#us")
     assert "°F" in page.inner_text('[data-heat="hot_spot"]')
     # a layer that is added gets what it needs

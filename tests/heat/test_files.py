@@ -257,7 +257,7 @@ def test_a_branch_on_the_command_line(case_file):
         (("--follow", "speed=9 m/s:2 m/s"), "`--follow` must begin above 0 and below its end"),
         (
             ("--follow", "speed=1e-9 m/s:2 m/s"),
-            "makes none where the branch begins; begin at more, or give it viscoelastic layers",
+            "No heat arises where the branch begins, so there is none to follow: begin at more",
         ),
         (("--follow", "speed=20 N"), "--follow: must be a speed"),
         (("--duration", "2 mm"), "--duration: must be a time"),

@@ -30,6 +30,17 @@ def test_the_heat_of_the_nip_is_in_balance(warm):
     assert warm.upper.to_nip == pytest.approx(-warm.lower.to_nip, rel=1e-9)
 
 
+def test_without_heat_everything_stays_at_the_temperature_of_the_air():
+    """To the last digit: rounding once drew a hot spot, and powers of 1e-11 W/m."""
+    elastic = rn.Elastic(modulus=3.0, poisson=0.5, thermal=RUBBER)
+    nip = press(elastic)
+    found = rn.solve_heat(nip, cooled(25.0), PLAIN)
+    assert found.converged, found.status
+    for roller in (found.upper, found.lower):
+        assert set(roller.temperature) == {23.0}
+        assert {roller.power, roller.to_air, roller.to_core, roller.to_nip} == {0.0}
+
+
 def test_it_takes_no_more_than_forty_nips(warm):
     assert warm.solves <= 40
 

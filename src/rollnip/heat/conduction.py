@@ -1,9 +1,9 @@
 """Heat conduction along the radii of both rollers: a linear system for given sources.
 
 (1/r) d(r k dT/dr)/dr + s(r) = rho c dT/dt is discretised by finite volumes. The unknowns are the
-temperatures of the cells of the upper roller, of the lower roller, and of both surfaces; a surface
-stores no heat. What flows out of one cell flows into the next, so that the powers add up to
-rounding.
+temperatures of the cells of the upper roller, of the lower roller, and of both surfaces, as rises
+over the temperature of the air; a surface stores no heat. What flows out of one cell flows into the
+next, so that the powers add up to rounding; without heat every rise is exactly zero.
 """
 
 from __future__ import annotations
@@ -97,27 +97,28 @@ class Conduction:
         return np.full(self.cells + 2, temperature)
 
     def system(self, over: Exchange) -> tuple[Array, Array]:
-        """Return matrix (n+2, n+2) and right-hand side (n+2,), without the sources in cells."""
+        """Return matrix (n+2, n+2) and right-hand side (n+2,), without the sources in cells.
+
+        The unknowns are the rises over the temperature of the air.
+        """
         n = self.cells
         matrix, right = np.zeros((n + 2, n + 2)), np.zeros(n + 2)
         for side, grid in enumerate(self.grids):
             first = 0 if side == 0 else self.sizes[0]
             self._inside(grid, first, n + side, matrix, right)
         matrix[n:, n:] -= over.matrix
-        right[n:] += over.offset
+        right[n:] += self._into_surfaces(over, np.zeros(2))
         for side in range(2):
             held = self._held_surface(side)
             if held is not None:
                 matrix[n + side] = 0.0
-                matrix[n + side, n + side], right[n + side] = 1.0, held
+                matrix[n + side, n + side], right[n + side] = 1.0, held - self.ambient
         return matrix, right
 
     def _inside(
         self, grid: RadialGrid, first: int, surface: int, matrix: Array, right: Array
     ) -> None:
-        film = grid.film_conductance
-        matrix[surface, surface] += film
-        right[surface] += film * self.ambient
+        matrix[surface, surface] += grid.film_conductance
         if grid.size == 0:
             at, to_core = surface, _core_conductance(grid)
         else:
@@ -131,7 +132,12 @@ class Conduction:
             at, to_core = int(rows[-1]), _core_conductance(grid)
         if to_core > 0.0:
             matrix[at, at] += to_core
-            right[at] += to_core * _core_temperature(grid)
+            right[at] += to_core * (_core_temperature(grid) - self.ambient)
+
+    def _into_surfaces(self, over: Exchange, rises: Array) -> Array:
+        """Return the powers into both surfaces across the nip, (2,), from their rises."""
+        still = self.ambient * over.matrix.sum(axis=1) + over.offset
+        return np.asarray(over.matrix @ rises + still)
 
     def _held_surface(self, side: int) -> float | None:
         """Return the temperature of a surface if it is prescribed; otherwise None."""
@@ -146,7 +152,7 @@ class Conduction:
         """Return the steady temperatures, (n+2,) [degC]."""
         matrix, right = self.system(sources.over)
         right[: self.cells] += sources.cells
-        return np.asarray(np.linalg.solve(matrix, right))
+        return np.asarray(self.ambient + np.linalg.solve(matrix, right))
 
     def base(self, over: Exchange) -> Array:
         """Return the steady temperatures without the heat of the nip, (n+2,) [degC]."""
@@ -157,7 +163,7 @@ class Conduction:
         """Return the powers that are generated in and leave one roller."""
         grid, n = self.grids[side], self.cells
         surface = self.surface(values, side)
-        into = float(sources.over.matrix[side] @ values[n:] + sources.over.offset[side])
+        into = float(self._into_surfaces(sources.over, values[n:] - self.ambient)[side])
         friction = float(sources.over.friction[side])
         to_air = grid.film_conductance * (surface - self.ambient)
         viscous = float(sources.lost[side])

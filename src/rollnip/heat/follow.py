@@ -192,8 +192,8 @@ class _Walk:
         last = thermal.at(cold, thermal.whole(), nip)
         if last.hottest <= 0.0:
             raise InvalidInputError(
-                "`nip` must make heat for a branch to follow, and makes none where the branch "
-                "begins; begin at more, or give it viscoelastic layers or slip."
+                "No heat arises where the branch begins, so there is none to follow: begin at "
+                "more, or give the nip viscoelastic layers or slip."
             )
         near = from_cold(thermal, last, nip)
         return self.at_rise(_BranchState(value, near.hottest, near), near.hottest, value)

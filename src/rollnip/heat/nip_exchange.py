@@ -80,6 +80,8 @@ def exchange(
     # Q = A T' + c with T' = T + kept (Q + rubbed)
     solve = np.linalg.inv(np.eye(2) - handed * kept[None, :])
     matrix = speed * solve @ handed
+    if sheet is None:  # only the difference of the temperatures counts, to the last digit
+        matrix[:, 1] = -matrix[:, 0]
     offset = speed * solve @ (brought + handed @ (kept * rubbed)) + speed * rubbed
     return Exchange(matrix, offset, speed * rubbed, to_sheet)
 

@@ -264,7 +264,8 @@ def _wrapped(
             status = f"The warm nip: {state.solution.status}"
         else:
             known = RISE.text(max(claimed, 1e-9), 1)
-            status = f"Steady: temperatures to {known}, {thermal.solves} nips."
+            nips = "1 nip" if thermal.solves == 1 else f"{thermal.solves} nips"
+            status = f"Steady: temperatures to {known}, {nips}."
         if stable is False:
             status += " This state is not stable: a disturbance grows."
     return HeatSolution(

@@ -274,10 +274,10 @@ class _WarmingPath:
         conduction, n = self.conduction, self.conduction.cells
 
         def slope(_: float, cells: Array) -> Array:
-            row = self.row(cells)
+            row, rise = self.row(cells), cells - conduction.ambient
             matrix, right = conduction.system(_over(row, n))
-            outside = np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ cells)
-            flow = right[:n] + row[:n] - matrix[:n, :n] @ cells - matrix[:n, n:] @ outside
+            outside = np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ rise)
+            flow = right[:n] + row[:n] - matrix[:n, :n] @ rise - matrix[:n, n:] @ outside
             return np.asarray(flow / conduction.capacity)
 
         def jacobian(_: float, cells: Array) -> Array:
@@ -301,9 +301,10 @@ class _WarmingPath:
 
     def _surfaces(self, cells: Array) -> Array:
         """Return the temperatures of both surfaces, which store no heat, (2,) [degC]."""
-        n = self.conduction.cells
+        n, ambient = self.conduction.cells, self.conduction.ambient
         matrix, right = self.conduction.system(_over(self.row(cells), n))
-        return np.asarray(np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ cells))
+        outside = np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ (cells - ambient))
+        return np.asarray(ambient + outside)
 
     def row(self, cells: Array) -> Array:
         """Return the heat of the nip at temperatures of the cells, in the order of `_packed`."""

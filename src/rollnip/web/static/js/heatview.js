@@ -205,8 +205,10 @@ function verdictOf(heat, units) {
   if (!heat.converged) return say(/No steady state|runs away/.test(heat.status) ? "heat.no-steady" : "heat.unsound");
   const side = heat.upper.hot_spot >= heat.lower.hot_spot ? "upper" : "lower";
   const { hot_spot: hot, hot_spot_depth: depth } = heat[side];
+  const isEven = new Set(SIDES.flatMap((one) => heat[one].temperature)).size === 1;
   const values = { hot: units.figure(figureIn("heat", "hot_spot"), hot), depth: units.figure(figureIn("heat", "hot_spot_depth"), depth) };
-  return say(heat.stable === false ? `heat.unstable-${side}` : `heat.steady-${side}`, values);
+  if (heat.stable === false) return say(`heat.unstable-${side}`, values);
+  return say(isEven ? "heat.steady-even" : `heat.steady-${side}`, values);
 }
 
 function warmSentence(course, units) {

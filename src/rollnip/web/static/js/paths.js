@@ -2,6 +2,8 @@
 
 import { say } from "./texts.js";
 
+const TITLES = { sheet: "sheet.title", face: "face.title", heat: "heat.title" };
+
 /** The steps of a path: ["upper", "layers", 0, "material", "shore_a"]. */
 export function steps(path) {
   const found = path.match(/[^.[\]]+/g) ?? [];
@@ -42,6 +44,7 @@ export function placeInWords(path) {
     if (typeof step === "number") return null;
     if (step === "upper" || step === "lower") return say(`roller.${step}`);
     if (step === "radius") return say("path.diameter");
+    if (step in TITLES) return say(TITLES[step]);
     const next = parts[i + 1];
     if (typeof next === "number") return say("path.numbered", { name: step.replace(/s$/, ""), number: next + 1 });
     return step.replace(/_/g, " ");

@@ -52,6 +52,7 @@ export const HEAT_DE = {
   "heat.chart-branch": "Temperatur der heißesten Stelle im stationären Zustand.",
   "heat.foot": "Gepunktet: Grenzen der Schichten und Haftflächen. Rund um eine Walze ist die Temperatur gleich.",
   "heat.busy": "Die Temperaturen werden berechnet …",
+  "heat.steady-even": "Im stationären Zustand erwärmt sich nichts: überall {hot}.",
   "heat.steady-upper": "Im stationären Zustand hat die heißeste Stelle {hot}, {depth} tief in der oberen Walze.",
   "heat.steady-lower": "Im stationären Zustand hat die heißeste Stelle {hot}, {depth} tief in der unteren Walze.",
   "heat.unstable-upper": "Der stationäre Zustand ist nicht stabil: eine Störung wächst. Seine heißeste Stelle hat {hot}, {depth} tief in der oberen Walze.",

@@ -52,6 +52,7 @@ export const HEAT_EN = {
   "heat.chart-branch": "Temperature of the hottest place in the steady state.",
   "heat.foot": "Dotted lines: interfaces and bonds. Temperatures are the same all around a roller.",
   "heat.busy": "The temperatures are being computed …",
+  "heat.steady-even": "In the steady state nothing warms up: {hot} throughout.",
   "heat.steady-upper": "In the steady state the hottest place has {hot}, {depth} deep in the upper roller.",
   "heat.steady-lower": "In the steady state the hottest place has {hot}, {depth} deep in the lower roller.",
   "heat.unstable-upper": "The steady state is not stable: a disturbance grows. Its hottest place has {hot}, {depth} deep in the upper roller.",

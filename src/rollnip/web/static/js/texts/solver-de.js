@@ -178,7 +178,7 @@ export const SOLVER_DE = {
   "solver.shell-body": "muss bei der {side} Walze wegbleiben: Ihr Kern ist ein eigener Körper.",
   "solver.heat-needs-speed": "muss für eine Wärmebilanz gegeben sein.",
   "solver.film": "muss wenigstens für eine Walze positiv sein, oder ein Kern muss gehalten oder gekühlt werden: Mit Wärmeübergang 0 und Kernen ohne Wärmeabfuhr kann keine Wärme fort.",
-  "solver.makes-heat": "muss Wärme erzeugen, damit sich die Zustände verfolgen lassen, und erzeugt dort keine, wo sie beginnen; beginnen Sie bei mehr, oder geben Sie ihm viskoelastische Schichten oder Gleiten.",
+  "solver.makes-heat": "Wo die Zustände beginnen, entsteht keine Wärme, also ist keine zu verfolgen: beginnen Sie bei mehr, oder geben Sie dem Spalt viskoelastische Schichten oder Schlupf.",
   "solver.shell-warm": "muss wenigstens für eine Walze ohne Schichten gegeben sein: Ohne ihn gibt es nichts, was warm werden könnte.",
   "solver.patch-rim": "Der Kontakt reicht bis an den Rand des Gitters; die Zahlen sind die eines Teils davon.",
   "solver.patch-touch": "muss sich in einem begrenzten Gebiet berühren, und keines fand sich; prüfen Sie Radien, Schichten und Last.",

@@ -178,7 +178,7 @@ export const SOLVER_EN = {
   "solver.shell-body": "must be left out for the {side} roller: its core is a body of its own.",
   "solver.heat-needs-speed": "must be given for a heat balance, got None.",
   "solver.film": "must be positive for at least one roller, or a core held or cooled: with film 0 and insulated cores no heat can leave, got 0 for both.",
-  "solver.makes-heat": "must make heat for a branch to follow, and makes none where the branch begins; begin at more, or give it viscoelastic layers or slip.",
+  "solver.makes-heat": "No heat arises where the branch begins, so there is none to follow: begin at more, or give the nip viscoelastic layers or slip.",
   "solver.shell-warm": "must be given for at least one roller that has no layers: without it there is nothing that could warm up.",
   "solver.patch-rim": "The contact reaches the rim of the grid; the figures are those of a part of it.",
   "solver.patch-touch": "must touch over a bounded area, and none was found; check radii, layers and load.",

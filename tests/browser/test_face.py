@@ -14,6 +14,7 @@ from tests.browser.test_standing import overhang
 
 import rollnip as rn
 from rollnip.face import even_crown
+from rollnip.face.checks import REPORTED
 from rollnip.io import parse_case
 
 pytestmark = pytest.mark.slow
@@ -47,6 +48,9 @@ def test_load_width_and_pressure_are_those_of_the_solver(face):
         np.testing.assert_allclose(drawn["y"], expected, rtol=1e-6)
     assert figure(face, "evenness") == pytest.approx(100 * solution.evenness, rel=2e-3)
     assert figure(face, "total_load") == pytest.approx(9600)
+    verified = [error for name, error in solution.error.items() if name not in REPORTED]
+    assert figure(face, "error") == pytest.approx(100 * max(verified), rel=0.06)
+    assert max(verified) < max(solution.error.values())
 
 
 def test_the_drawings_say_how_much_is_exaggerated_and_the_print_is_to_scale(face):

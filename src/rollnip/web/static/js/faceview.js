@@ -28,6 +28,7 @@ const CURVES = ["load", "peak_pressure", "nip_width", "traction"];
 const SHEET_CURVES = ["feed_upper", "feed_lower", "tension_in"];
 const ROWS = ["mean_load", "total_load", "evenness", "even_share", "largest_scrub", "added_length"];
 const SHEET_ROWS = ["mean_feed", "feed_difference", "least_tension_in", "taut_tension"];
+const OF_POWERS = ["torque", "loss"]; // errors of figures that may be next to nothing; not verified
 const NOISE = 1e-9; // of the mean load: a traction below it is rounding
 const WITHIN = 0.1;
 const FIELDS = [
@@ -305,7 +306,7 @@ function cleaned(face, key) {
 
 /** What is said of a face, as {key, label, text, unit, error, hint}. */
 export function faceRows(face, units) {
-  const worst = Math.max(...Object.values(face.error));
+  const worst = Math.max(...Object.entries(face.error).map(([key, error]) => (OF_POWERS.includes(key) ? 0 : error)));
   const row = (key) => {
     const { label, hint, dimension, digits } = figureIn("face", key);
     const value = key === "largest_scrub" ? cleanedScrub(face) : face[key];

@@ -90,10 +90,11 @@ def test_the_path_of_a_sheet_asks_for_no_finer_meshes_than_the_contact(counted):
 
 
 def test_a_zone_found_late_asks_for_no_finer_meshes_than_its_errors_do(counted):
-    # What other zones changed was taken for the error of those found: 3113 nodes.
+    # What other zones changed was taken for the error of those found: 3113 nodes. Then sizes solved
+    # again had the ends of the finer ones, which told too small an error: 1540.
     for number in (106021, 106046, 106067, 106068):
         assert rn.solve(random_case(number).nip, rn.Model(geometry="curved")).converged
-    assert sum(counted["sheet"]) <= 1750
+    assert sum(counted["sheet"]) <= 1900
 
 
 @pytest.mark.parametrize("name", ["feed-nip", "laminator", "web-pull"])

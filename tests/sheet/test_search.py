@@ -117,3 +117,25 @@ def test_a_transition_of_which_only_the_direction_shows_moves():
     again = search.settle_zones(elsewhere, 38, solved, 0.03)
     assert again.settled
     assert again.zones.upper.breaks[2] == pytest.approx(where, abs=0.2 * (end - where))
+
+
+def test_a_transition_moves_away_from_short_stick_by_no_more_than_its_length():
+    """It went to the middle of the next zone, 137 lengths away, and the search was lost.
+
+    Slip along its own shear was then verified beside an edge, and the creepage was 0.17 % off.
+    """
+    nip = random_case(9039, bending=True).nip
+    found, fine = (rn.solve(nip, rn.Model(geometry="linear", tolerance=t)) for t in (1e-3, 2e-4))
+    assert found.converged
+    assert found.creepage == pytest.approx(fine.creepage, rel=2e-4)
+    # stick shifted by its length shows at one end only that it is to move back
+    zones, search = fine.refined.iterate.zones, PlateSearch(found.final.contact)
+    ends, stick = zones.ends.copy(), zones.upper.lengths[1]
+    ends[[1, 2]] -= stick
+    elsewhere = zones.with_ends(ends)
+    solved, _ = search._solve_with_zones(elsewhere, (38, {}), (1.0, inf), None)
+    x, state = solved.problem.meshes[0].inner, solved.state.side(0)
+    shown = elsewhere.upper.with_proposed_ends(x, state, solved.problem.frictions[0]).breaks
+    assert shown[2] == inf
+    moved = elsewhere.moved(solved.problem, solved.state).upper.breaks
+    assert moved[2] - ends[2] == pytest.approx(stick, rel=1e-9)

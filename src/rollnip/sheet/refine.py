@@ -229,12 +229,13 @@ def _with_same_zones(
 
     Where a solution has other zones than the coarser sizes, its change from those says nothing
     about its own error. The last size, of ``count`` elements, is then solved again with nodes at
-    the ends of the new zones.
+    the ends of the new zones. These are placed as closely as on any size: where those of the finer
+    mesh were kept, the change would lack what the ends contribute to it.
     """
     if not history or history[-1].zones.is_like(iterate.zones):
         return history
     try:
-        again = search.settle_zones(iterate.zones, count, iterate, FIRST_END_TOLERANCE)
+        again = search.settle_zones(iterate.zones, count, iterate, _end_tolerance(count))
     except np.linalg.LinAlgError:
         return history
     if not (again.settled and again.zones.is_like(iterate.zones)):

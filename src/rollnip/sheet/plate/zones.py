@@ -98,9 +98,10 @@ class PlateZones(SideZones):
     ) -> PlateZones:
         """Return zones whose ends are moved to where a solution with these zones puts them.
 
-        A transition moves at most half of the way to its neighbours, an edge at most a 25th of the
-        width, and outwards at most the length of the zone beside it. A transition of which only the
-        direction is known moves as far as it may.
+        A transition moves at most half of the way to its neighbours, and away from stick at most
+        the length of that, because its place is told by the tractions there. An edge moves at most
+        a 25th of the width, and outwards at most the length of the zone beside it. A transition of
+        which only the direction is known moves as far as it may.
 
         Parameters
         ----------
@@ -115,8 +116,9 @@ class PlateZones(SideZones):
             if requested is not None:
                 proposed = np.where(np.isfinite(proposed), proposed, requested.sides[number].breaks)
             trailing, leading = side.edges
-            proposed[1:-1] = np.clip(proposed[1:-1], trailing, leading)
-            most, lengths = LONGEST_MOVE * side.width, side.lengths
+            most, lengths, places = LONGEST_MOVE * side.width, side.lengths, side.breaks[1:-1]
+            reach = np.where(side.states == State.STICK, lengths, side.width)
+            proposed[1:-1] = proposed[1:-1].clip(places - reach[1:], places + reach[:-1])
             first, last = float(proposed[0]), float(proposed[-1])
             # an edge beside which no pressure rises lies in tension: move it to where that ends
             pressed = x[state.pressure[number] > 0.0]

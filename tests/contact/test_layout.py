@@ -234,7 +234,7 @@ def test_slack_of_unlike_surfaces_vanishes_as_at_an_edge_of_the_slip(slip, sign,
     shear = sign * (friction * pressure - slack)
     state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
     known, as_root = (
-        layout.with_proposed_ends(x, state, friction, exponents[:1] + (kappa,) + exponents[2:])
+        layout.with_proposed_ends(x, state, friction, (*exponents[:1], kappa, *exponents[2:]))
         for kappa in (exponents[1], 0j)
     )
     assert known.breaks[1] == pytest.approx(0.0, abs=1e-9)

@@ -18,7 +18,8 @@ Where stick ends and slip with q = m p begins behind it, m = mu sign(q), the she
 bound by g = q - m p on the side of the stick. With the Hilbert transform H, H^2 = -1, the gap and
 the creep ask for smooth H p + beta q on both sides and H q - beta p on the side of the stick. So
 
-    p = beta/(1 + m^2 beta^2) (H g - m beta g) + smooth,    H g = m beta g    on the side of the stick:
+    p = beta/(1 + m^2 beta^2) (H g - m beta g) + smooth,
+    H g = m beta g    on the side of the stick:
 
 there g vanishes as s^(1/2 + kappa) with the kappa of a leading edge of the slip, and the pressure
 is smooth; on the side of the slip p changes by a multiple of s^(1/2 + kappa). If kappa < 0 it falls
@@ -63,8 +64,9 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
 def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
     """Return what the acting tractions beside an end of a zone lack, per step to the first node.
 
-    The step is that of p + i q from the end to the first node inside. They lack the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
-    `Subdivision`), adjusted to have the means of that difference over the pieces.
+    The step is that of p + i q from the end to the first node inside. They lack the difference
+    between t^(1 + 2 kappa) and its cubics in the node index t (see `Subdivision`), adjusted to have
+    the means of that difference over the pieces.
 
     Parameters
     ----------

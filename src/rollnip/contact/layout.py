@@ -351,8 +351,9 @@ class Layout:
         """Return the layout with its breaks where a solution with its states proposes them.
 
         The pressure at an edge, and mu p - |q| at the trailing end of stick, vanish as a square
-        root, but for their exponents. At the leading end of stick mu p - |q| is smooth: it goes as y^(3/2) with the distance
-        y from there, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first order in the error d.
+        root, but for their exponents. At the leading end of stick mu p - |q| is smooth: it goes as
+        y^(3/2) with the distance y from there, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first
+        order in the error d.
 
         Parameters
         ----------

@@ -312,6 +312,18 @@ def peaks_alike(pressure: Array) -> list[int]:
     return peaks
 
 
+def peak_on(mesh: Mesh, pressure: Array) -> tuple[float, float]:
+    """Return the highest of pressures at nodes[1:-1] of a mesh and its place.
+
+    At a cusp between unlike surfaces, and at the next node, no cubic or parabola raises it.
+    """
+    highest, fine = int(pressure.argmax()), mesh.fine
+    beside = {highest - 1, highest, highest + 1}.intersection(fine.inner_breaks)
+    if any(map(fine.exponent_at, beside)):
+        return float(pressure[highest]), float(mesh.inner[highest])
+    return peak_pressure(fine.nodes[1:-1], mesh.between(pressure))
+
+
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
     """Return the highest pressure and its place, from the parabola through three nodes.
 

@@ -219,6 +219,28 @@ def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
     assert moved.breaks[1] - 1.0 == pytest.approx(short, rel=0.05)
 
 
+@pytest.mark.parametrize(("slip", "sign"), [(PLUS, 1.0), (MINUS, -1.0)])
+@pytest.mark.parametrize("beta", [-0.3, 0.3])
+def test_slack_of_unlike_surfaces_vanishes_as_at_an_edge_of_the_slip(slip, sign, beta):
+    """Behind stick that ends towards the trailing edge; a square root puts the end elsewhere."""
+    friction, breaks = 1.7, np.array([-1.0, 0.0, 1.0])
+    layout = Layout(breaks, np.array([slip, STICK], dtype=np.int8))
+    exponents = layout.exponents(beta, friction)
+    alone = Layout(breaks[:2], layout.states[:1])
+    assert exponents[:2] == alone.exponents(beta, friction)
+    x = cosine_nodes(breaks, np.array([12, 12]))[1:-1]
+    slack = np.clip(x, 0.0, None) ** (0.5 + exponents[1].real)
+    pressure = np.sqrt(np.clip(1.0 - x * x, 0.0, None))
+    shear = sign * (friction * pressure - slack)
+    state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
+    known, as_root = (
+        layout.with_proposed_ends(x, state, friction, (*exponents[:1], kappa, *exponents[2:]))
+        for kappa in (exponents[1], 0j)
+    )
+    assert known.breaks[1] == pytest.approx(0.0, abs=1e-9)
+    assert abs(as_root.breaks[1]) > 1e-3
+
+
 def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
     """The shear goes from one bound to the other; from exact values the ends stay where they are.
 

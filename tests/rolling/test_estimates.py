@@ -79,7 +79,7 @@ def test_a_peak_where_slip_ends_is_of_first_order():
         rn.solve(nip, rn.Model(geometry="curved", tolerance=tolerance)).final
         for tolerance in (1e-3, 3e-5)
     )
-    assert found.peaks_beside_transition
+    assert found.transitions_at_peak
     missed = abs(found.figures.peak_pressure - exact.figures.peak_pressure)
     assert missed < found.error.peak_pressure
 

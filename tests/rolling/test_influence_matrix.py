@@ -46,7 +46,7 @@ def twice_log(distance):
 def solved(count, beta, state, *, friction, knows=True):
     """The parabola with edges at -1 and 1; ``knows``: whether its exponents are used."""
     layout = Layout(np.array([-1.0, 1.0]), np.array([state], dtype=np.int8))
-    exponents = layout.edge_exponents(beta if knows else 0.0, friction)
+    exponents = layout.exponents(beta if knows else 0.0, friction)
     nodes = cosine_nodes(layout.breaks, np.array([count]))
     fine = subdivided(nodes, np.array([count]), exponents=exponents)
     unit = unit_tractions(fine)

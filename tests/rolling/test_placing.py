@@ -142,3 +142,31 @@ def test_a_stick_zone_that_is_too_short_where_slip_reverses_is_made_longer():
     )
     assert found.converged
     assert found.creepage == pytest.approx(finer.creepage, rel=1e-3)
+
+
+def peaking_at_transition(geometry, tolerance):
+    """A driven nip of unlike surfaces; its pressure rises to a cusp as the power 0.354."""
+    soft = rn.Layer(2.665, rn.Elastic(modulus=5.218, poisson=0.3))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=32.0, layers=(soft,)),
+        lower=rn.Roller(radius=17.54),
+        normal=rn.LineLoad(0.2063),
+        tangential=rn.Traction(-0.2219),
+        friction=1.7316,
+    )
+    return rn.solve(nip, rn.Model(geometry=geometry, tolerance=tolerance)).final
+
+
+def test_a_transition_between_unlike_surfaces_is_placed_on_few_elements():
+    """As a square root it was 1.1e-4 of the width off on three times as many."""
+    found, exact = (peaking_at_transition("curved", tolerance) for tolerance in (1e-3, 3e-5))
+    missed = found.layout.breaks[1] - exact.layout.breaks[1]
+    assert abs(missed) < 3e-5 * exact.figures.nip_width
+    assert sum(found.mesh.fine.elements) < 80
+
+
+def test_a_peak_at_a_transition_is_no_trace_of_its_misplacement():
+    """At finite strain a correction moved the transition, and its spike was taken for the peak."""
+    found, fine = (peaking_at_transition("finite", tolerance) for tolerance in (1e-3, 3e-4))
+    assert found.figures.peak_pressure == pytest.approx(fine.figures.peak_pressure, rel=5e-3)
+    assert sum(found.mesh.fine.elements) < 150

@@ -1,4 +1,4 @@
-"""How the tractions of unlike surfaces vanish at an edge, and what the elements there leave out.
+"""The powers of the tractions of unlike surfaces at ends of zones, and what elements leave out.
 
 Over short distances s from an edge, both surfaces respond as half-planes. If they are alike, the
 tractions vanish as the square root of s. If they are unlike, pressure and shear drive one another:
@@ -12,8 +12,21 @@ C_xz = i B/w. At a leading edge
     kappa = arctan(mu beta)/pi sign(q)         where they slip (Dundurs & Lee 1972),
 
 and at a trailing edge the opposite. So where they stick, the direction of the traction turns with
-ln s as the edge is approached. On cosine nodes s grows as the square of the node index t, and
-cubics in t hold t, the square root, but not t^(1 + 2 kappa).
+ln s as the edge is approached.
+
+Where stick ends and slip with q = m p begins behind it, m = mu sign(q), the shear differs from its
+bound by g = q - m p on the side of the stick. With the Hilbert transform H, H^2 = -1, the gap and
+the creep ask for smooth H p + beta q on both sides and H q - beta p on the side of the stick. So
+
+    p = beta/(1 + m^2 beta^2) (H g - m beta g) + smooth,
+    H g = m beta g    on the side of the stick:
+
+there g vanishes as s^(1/2 + kappa) with the kappa of a leading edge of the slip, and the pressure
+is smooth; on the side of the slip p changes by a multiple of s^(1/2 + kappa). If kappa < 0 it falls
+from the transition with a slope that is steeper than that of a square root.
+
+On cosine nodes s grows as the square of the node index t, and cubics in t hold t, the square root,
+but not t^(1 + 2 kappa).
 """
 
 from __future__ import annotations
@@ -49,10 +62,11 @@ def exponent_at_leading_edge(state: int, beta: float, friction: float) -> comple
 
 @lru_cache(maxsize=128)
 def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
-    """Return what the acting tractions beside an edge lack, per p + i q at the first node inside.
+    """Return what the acting tractions beside an end of a zone lack, per step to the first node.
 
-    They lack the difference between t^(1 + 2 kappa) and its cubics in the node index t (see
-    `Subdivision`), adjusted to have the means of that difference over the pieces.
+    The step is that of p + i q from the end to the first node inside. They lack the difference
+    between t^(1 + 2 kappa) and its cubics in the node index t (see `Subdivision`), adjusted to have
+    the means of that difference over the pieces.
 
     Parameters
     ----------

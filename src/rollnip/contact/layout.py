@@ -330,16 +330,16 @@ class Layout:
         out[ends[self.is_edge]] = FREE
         return out
 
-    def edge_exponents(self, beta: float, friction: float) -> tuple[complex, ...]:
-        """Return the exponents at all edges, trailing edge first, see `contact.edge_exponents`."""
-        states = [FREE, *self.states.tolist(), FREE]
-        at_edges = (
-            (before, after) for before, after in pairwise(states) if FREE in (before, after)
-        )
-        return tuple(
-            exponent_at_leading_edge(before or after, beta, friction) * (1.0 if before else -1.0)
-            for before, after in at_edges
-        )
+    def exponents(self, beta: float, friction: float) -> tuple[complex, ...]:
+        """Return the exponents at all breaks, see `contact.edge_exponents`; 0 at smooth ends."""
+        out: list[complex] = []
+        for before, after in pairwise([FREE, *self.states.tolist(), FREE]):
+            leading = exponent_at_leading_edge(max(before, after), beta, friction)
+            if before > after:
+                out.append(leading)
+            else:
+                out.append(-leading if before == FREE else 0j)
+        return tuple(out)
 
     def with_proposed_ends(
         self,
@@ -351,27 +351,29 @@ class Layout:
         """Return the layout with its breaks where a solution with its states proposes them.
 
         The pressure at an edge, and mu p - |q| at the trailing end of stick, vanish as a square
-        root. At the leading end of stick mu p - |q| is smooth: it goes as y^(3/2) with the distance
-        y from there, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first order in the error d.
+        root, but for their exponents. At the leading end of stick mu p - |q| is smooth: it goes as
+        y^(3/2) with the distance y from there, and (y + d)^(3/2) = y^(3/2) + 3/2 d y^(1/2) to first
+        order in the error d.
 
         Parameters
         ----------
         x : (n,) nodes, those at the breaks among them [mm].
         state : a solution with ``states_on(x)``.
         friction : Coulomb coefficient.
-        exponents : see `edge_exponents`; empty: square roots at all edges.
+        exponents : see `exponents`; empty: square roots at all breaks.
         """
-        ends, kappas, breaks = self.ends(x).tolist(), iter(exponents), []
+        ends, breaks = self.ends(x).tolist(), []
+        kappas = exponents or (0j,) * self.breaks.size
         sides = pairwise([FREE, *self.states.tolist(), FREE])
-        for number, ((before, after), place) in enumerate(
-            zip(sides, self.breaks.tolist(), strict=True)
+        for number, ((before, after), place, kappa) in enumerate(
+            zip(sides, self.breaks.tolist(), kappas, strict=True)
         ):
             if FREE in (before, after):
-                inwards, weight, kappa = 1 if before == FREE else -1, 1.0 + 0j, next(kappas, 0j)
+                inwards, weight = 1 if before == FREE else -1, 1.0 + 0j
             else:
                 # The sign is that of the slip: in a short stick zone the shear may change sign.
                 inwards, slip = (-1, after) if before == STICK else (1, before)
-                weight, kappa = complex(friction, 1.0 if slip == SLIP_PLUS else -1.0), 0j
+                weight = complex(friction, 1.0 if slip == SLIP_PLUS else -1.0)
             # At a smooth end nodes further inside are tried, see `ZoneEnd.proposed_move`.
             smooth = before == STICK and after != FREE
             furthest = (ends[number] - ends[number - 1]) // 3 if smooth else 0

@@ -53,7 +53,8 @@ class Subdivision:
     means : (M-1, N) from the mesh nodes but the first, to mean values between nodes[1:].
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
-    exponents : at each of these edges, see `edge_exponents`; all 0 for square roots.
+    exponents : at the edge or transition at each of `breaks`, see `edge_exponents`; 0 for a square
+        root, and where tractions are smooth.
     pieces : number of linear pieces of an element, except those beyond both edges, which have one.
     """
 
@@ -68,9 +69,32 @@ class Subdivision:
     pieces: int = 1
 
     @property
+    def breaks(self) -> list[int]:
+        """Indices in nodes[1:-1] of the mesh of the breaks beside and between its zones."""
+        return [0, *accumulate(self.elements)]
+
+    @property
     def inner_breaks(self) -> list[int]:
         """Indices in nodes[1:-1] of the mesh of the breaks between its zones."""
-        return [*accumulate(self.elements)][:-1]
+        return self.breaks[1:-1]
+
+    def exponent_at(self, node: int) -> complex:
+        """Return the exponent at a node of the mesh."""
+        return dict(zip(self.breaks, self.exponents, strict=False)).get(node, 0j)
+
+    @property
+    def unlike_ends(self) -> list[tuple[int, complex, int]]:
+        """Ends of zones with exponents: index in nodes[1:-1], exponent, and the step inwards.
+
+        At a transition two zones end.
+        """
+        edges = {node: -1 if number % 2 else 1 for number, node in enumerate(self.edges)}
+        return [
+            (node, kappa, inwards)
+            for node, kappa in zip(self.breaks, self.exponents, strict=False)
+            for inwards in ((edges[node],) if node in edges else (-1, 1))
+            if kappa
+        ]
 
     def integrated(self, values: Array) -> Array:
         """Return the integrals between nodes[1:] of the mesh of functions with ``values`` there."""
@@ -118,7 +142,7 @@ def subdivided(
     finer = finer @ nodes[np.cumsum([1, *counts])]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     edges = tuple(edges) or (0, nodes.size - 3)
-    exponents = exponents or (0j,) * len(edges)
+    exponents = exponents or (0j,) * (len(counts) + 1)
     return Subdivision(finer, counts, crowding, values, acting, means, edges, exponents, pieces)
 
 

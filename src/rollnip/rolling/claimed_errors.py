@@ -31,7 +31,7 @@ MODEL_SHARES: Mapping[Geometry, Mapping[str, float]] = {
     "finite": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
 }
 # Relative error of a pressure peak that is closer to an edge than a stiff skin is thick. Against
-# finite elements, which know it to 1.2 %, the largest is 21.5 % in "second" and 1.9 % in "finite".
+# finite elements, which know it to 1.2 %, the largest is 21.5 % in "second" and 1.1 % in "finite".
 # Where friction grips the skin, the zones beside an edge are shorter than it is thick: of 50
 # solutions of figure 4 with 0.025 mm that differ by rounding or loads, one is 6.4 % off the others,
 # and six more than 3 %.

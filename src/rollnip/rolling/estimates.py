@@ -158,7 +158,7 @@ def estimated_error(latest: MeshSolution, history: list[RefinementLevel]) -> Fig
     order = np.full(5, 2.0)
     if len(history) > 2:
         order = shown_order(counts, np.diff(values, axis=0))
-    elif latest.peaks_beside_transition:
+    elif latest.transitions_at_peak:
         order[_PEAK] = 1.0
     change = errors_from_changes(counts, values, order)
     scales = latest.sizes.array()

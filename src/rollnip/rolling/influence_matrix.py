@@ -11,19 +11,20 @@ from rollnip.contact.problem import Array
 def unit_tractions(fine: Subdivision) -> Array | None:
     """Return what acts at the finer nodes[1:-1] per traction at nodes[1:-1] of the mesh.
 
-    Behind the columns of nodal tractions stand those that they leave out beside the edges of unlike
-    surfaces, the real parts and then the imaginary parts of `left_out_of_tractions`. None where
-    nothing is subdivided: each traction acts at its node.
+    Behind the columns of nodal tractions stand those that they leave out beside the edges and
+    transitions of unlike surfaces, the real parts and then the imaginary parts of
+    `left_out_of_tractions`. None where nothing is subdivided: each traction acts at its node.
     """
     if fine.acting is None:
         return None
     unit = fine.acting[1:-1, 1:-1]
-    if not any(fine.exponents):
+    ends = fine.unlike_ends
+    if not ends:
         return unit
-    left_out = np.zeros((unit.shape[0], sum(map(bool, fine.exponents))), dtype=complex)
-    for column, (edge, kappa, inwards) in zip(left_out.T, _unlike_edges(fine), strict=True):
+    left_out = np.zeros((unit.shape[0], len(ends)), dtype=complex)
+    for column, (node, kappa, inwards) in zip(left_out.T, ends, strict=True):
         beside = left_out_of_tractions(kappa, fine.pieces)
-        column[fine.pieces * edge + inwards * np.arange(beside.size)] = beside
+        column[fine.pieces * node + inwards * np.arange(beside.size)] = beside
     return np.concatenate([unit, left_out.real, left_out.imag], axis=1)
 
 
@@ -56,34 +57,31 @@ def influence_matrix(fine: Subdivision, made: Array, shorter: Array | None) -> A
 def _correct_creep_to_edges(fine: Subdivision, out: Array) -> None:
     """Take from the creep in the elements at leading edges what `left_out_of_creep` says."""
     n = len(out) // 2
-    for edge, kappa in zip(fine.edges[1::2], fine.exponents[1::2], strict=True):
+    for edge in fine.edges[1::2]:
         node = edge - 1
         creep = out[n + node]
-        rho = left_out_of_creep(kappa, fine.pieces) * creep[n + node]
+        rho = left_out_of_creep(fine.exponent_at(edge), fine.pieces) * creep[n + node]
         creep[node] -= rho.imag
         creep[n + node] -= rho.real
 
 
 def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
-    """Add what the nodal tractions beside the edges of unlike surfaces leave out.
+    """Add what the nodal tractions beside the edges and transitions of unlike surfaces leave out.
 
     If D z acts, with z = p + i q at one node and D complex, the gap that it makes is the real part
-    of (zz + i xz) D z, and its creep the real part of the change of (xz - i xx) D z.
+    of (zz + i xz) D z, and its creep the real part of the change of (xz - i xx) D z. What is left
+    out is in proportion to the difference of z from the end of a zone to the first node inside.
     """
-    n, nodes = len(out) // 2, np.array([edge + inwards for edge, _, inwards in _unlike_edges(fine)])
-    if not nodes.size:
+    n, ends = len(out) // 2, fine.unlike_ends
+    if not ends:
         return
-    zz, xz, xx = made[:, :, n : n + nodes.size] + 1j * made[:, :, n + nodes.size :]
+    zz, xz, xx = made[:, :, n : n + len(ends)] + 1j * made[:, :, n + len(ends) :]
     gap, shift = zz + 1j * xz, xz - 1j * xx
     by_traction = np.concatenate([gap[:-1], shift[1:] - shift[:-1]])
-    out[:, nodes] += by_traction.real
-    out[:, n + nodes] -= by_traction.imag
-
-
-def _unlike_edges(fine: Subdivision) -> list[tuple[int, complex, int]]:
-    """Return the edges with exponents: index in nodes[1:-1], kappa, and the step inwards."""
-    edges = enumerate(zip(fine.edges, fine.exponents, strict=True))
-    return [(edge, kappa, -1 if number % 2 else 1) for number, (edge, kappa) in edges if kappa]
+    for (node, _, inwards), column in zip(ends, by_traction.T, strict=True):
+        for one, sign in ((node + inwards, 1.0), (node, -1.0)):
+            out[:, one] += sign * column.real
+            out[:, n + one] -= sign * column.imag
 
 
 def shorter_per_traction(per_traction: Array, hoops: tuple[float, float]) -> Array | None:

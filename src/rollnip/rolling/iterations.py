@@ -17,7 +17,7 @@ from rollnip.contact.problem import MOST_ITERATIONS
 from rollnip.rolling.assemble import LaggedTerms, contact_problem, lagged_terms
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.mesh_solution import UNKNOWN_ERROR, Figures, MeshSolution, peak_pressure
+from rollnip.rolling.mesh_solution import UNKNOWN_ERROR, Figures, MeshSolution, peak_on
 from rollnip.rolling.neglected_slip import tolerable_slip
 from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.surfaces import Mesh, PairKernels
@@ -114,7 +114,7 @@ def figures_of(
     mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...], lean: float
 ) -> Figures:
     """Return approach, load, creepage, nip width and peak pressure of a solution on a mesh."""
-    peak, _ = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+    peak, _ = peak_on(mesh, state.pressure)
     return Figures(
         approach=state.approach,
         load=float(mesh.weights @ state.pressure) - lean,

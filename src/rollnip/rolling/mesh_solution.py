@@ -182,10 +182,9 @@ class MeshSolution:
     def edges(self) -> tuple[ZoneEnd, ...]:
         """The edges of all pieces of the contact, trailing edge first."""
         x, fine = self.mesh.inner, self.mesh.fine
-        edges = enumerate(zip(fine.edges, fine.exponents, strict=True))
         return tuple(
-            ZoneEnd(x, self.state, node, -1 if number % 2 else 1, kappa)
-            for number, (node, kappa) in edges
+            ZoneEnd(x, self.state, node, -1 if number % 2 else 1, fine.exponent_at(node))
+            for number, node in enumerate(fine.edges)
         )
 
     @cached_property
@@ -206,14 +205,14 @@ class MeshSolution:
         return bool(self.mesh.fine.elements)
 
     @property
-    def peaks_beside_transition(self) -> bool:
-        """Return whether the highest pressure is at one of the three nodes beside a transition.
+    def transitions_at_peak(self) -> list[int]:
+        """Nodes at transitions of which one of the three nodes beside has the highest pressure.
 
         Between unlike surfaces the pressure follows the shear, whose slope is infinite where stick
         ends towards the trailing edge. Meshes find the height of such a peak to first order only.
         """
         highest = int(self.state.pressure.argmax())
-        return any(abs(highest - end) <= 3 for end in self.mesh.fine.inner_breaks)
+        return [end for end in self.mesh.fine.inner_breaks if abs(highest - end) <= 3]
 
     @property
     def nodes(self) -> Array:
@@ -311,6 +310,18 @@ def peaks_alike(pressure: Array) -> list[int]:
     is_peak = (pressure[high] >= fence[high]) & (pressure[high] > fence[high + 2])
     peaks: list[int] = high[is_peak].tolist()
     return peaks
+
+
+def peak_on(mesh: Mesh, pressure: Array) -> tuple[float, float]:
+    """Return the highest of pressures at nodes[1:-1] of a mesh and its place.
+
+    At a cusp between unlike surfaces, and at the next node, no cubic or parabola raises it.
+    """
+    highest, fine = int(pressure.argmax()), mesh.fine
+    beside = {highest - 1, highest, highest + 1}.intersection(fine.inner_breaks)
+    if any(map(fine.exponent_at, beside)):
+        return float(pressure[highest]), float(mesh.inner[highest])
+    return peak_pressure(fine.nodes[1:-1], mesh.between(pressure))
 
 
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:

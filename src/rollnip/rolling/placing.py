@@ -96,7 +96,7 @@ def _have_followed(search: EndSearch, aim: Aim) -> bool:
     distance = proposed.distance(search.layout, transitions_count=1.0)
     if not (proposed.is_proper and distance <= search.contact.tolerance):
         return False
-    if aim is Aim.FIGURES and (_is_false_at_edge(latest) or _exceeds_bound(latest)):
+    if aim is Aim.FIGURES and (_is_false_at_edge(latest) or _is_false_at_transition(search)):
         return False
     return changed_states(search, checks_contact=_are_ends_near(search, aim)) is None
 
@@ -108,7 +108,7 @@ def _is_placed(search: EndSearch, aim: Aim) -> bool:
         _are_ends_near(search, aim)
         and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)
         and not (_figures_decide(search, aim) and _figures_change(search))
-        and not (_is_false_at_edge(latest) or (is_last and _exceeds_bound(latest)))
+        and not (_is_false_at_edge(latest) or (is_last and _is_false_at_transition(search)))
         and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)
     )
 
@@ -153,6 +153,24 @@ def _figures_change(search: EndSearch) -> bool:
         most = NEGLIGIBLE**2 * search.contact.tolerance * length
         return search.misplacement * search.layout.width > most
     return replace(search.latest, error=end_error).error_ratio > NEGLIGIBLE
+
+
+def _is_false_at_transition(search: EndSearch) -> bool:
+    """Return whether shear or pressure show that a transition is misplaced.
+
+    Between unlike surfaces the pressure beside a transition may rise to a cusp. Where that is the
+    peak, the pressure there must not change by more than the tolerance over the misplacement.
+    """
+    latest, moves = search.latest, np.abs(search.proposed.breaks - search.layout.breaks)
+    x, pressure, fine = latest.mesh.inner, latest.state.pressure, latest.mesh.fine
+    slopes = np.abs(np.diff(pressure) / np.diff(x))
+    most = search.contact.tolerance * pressure.max()
+    changes = (
+        max(slopes[node - 1], slopes[node]) * moves[fine.breaks.index(node)]
+        for node in latest.transitions_at_peak
+        if fine.exponent_at(node)
+    )
+    return any(change > most for change in changes) or _exceeds_bound(latest)
 
 
 def _exceeds_bound(latest: MeshSolution) -> bool:

@@ -35,7 +35,7 @@ from rollnip.model import FINITE, Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.changes import LEAST_SIZE
 from rollnip.rolling.kinematics import creep_of
-from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_pressure
+from rollnip.rolling.mesh_solution import MeshSolution, SecondaryFigures, peak_on
 from rollnip.rolling.surface_work import loss_inside, moment, slip_intervals, transmitted
 
 
@@ -133,7 +133,7 @@ def secondary_figures(found: MeshSolution) -> SecondaryFigures:
 def secondary_figures_of(spent: Powers, found: MeshSolution) -> SecondaryFigures:
     """Return the secondary figures of a solution, given its powers."""
     mesh, state = found.mesh, found.state
-    _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+    _, place = peak_on(mesh, state.pressure)
     return SecondaryFigures(
         traction=float(mesh.weights @ state.shear),
         driving_upper=spent.driving_upper,

@@ -106,7 +106,7 @@ def mesh_at_ends(
     """Return the mesh with nodes at the ends of the zones of a solution."""
     nodes = cosine_nodes(layout.breaks, *shape)
     edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-    exponents = layout.edge_exponents(dundurs(contact.nip), contact.nip.friction)
+    exponents = layout.exponents(dundurs(contact.nip), contact.nip.friction)
     fine = subdivided(nodes, *shape, pieces_of(contact, layout), edges, exponents)
     return Mesh.on(nodes, kernels, fine)
 

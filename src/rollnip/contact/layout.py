@@ -334,11 +334,12 @@ class Layout:
         """Return the exponents at all breaks, see `contact.edge_exponents`; 0 at smooth ends."""
         out: list[complex] = []
         for before, after in pairwise([FREE, *self.states.tolist(), FREE]):
-            leading = exponent_at_leading_edge(max(before, after), beta, friction)
-            if before > after:
-                out.append(leading)
+            if before == FREE:
+                out.append(-exponent_at_leading_edge(after, beta, friction))
+            elif after in (FREE, STICK):
+                out.append(exponent_at_leading_edge(before, beta, friction))
             else:
-                out.append(-leading if before == FREE else 0j)
+                out.append(0j)
         return tuple(out)
 
     def with_proposed_ends(

@@ -143,7 +143,7 @@ def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
     The contact has moved by a fiftieth of its width since the mesh was made, with dense columns
     where the edges were: 0.5 % of the largest correction.
     """
-    monkeypatch.setattr(response, "_STEP_TOLERANCE", 0.0)
+    monkeypatch.setattr(response, "_STEP_TOLERANCE", (0.0, 0.0))
     nodes, p, q = tractions(0.15)
     kept, anew = (response_of(COVERINGS["rubber"]) for _ in range(2))
     kept.correction(nodes - 0.0396 * HALF, p, q)

@@ -33,10 +33,9 @@ CUT = 150.0
 _NEAR = 4.0  # half-widths beyond which the correction is not needed
 _FRONT = 0.8  # largest arc of the front side, over the radius: x increases with the arc there
 _SAME_SPEED = 1e-3  # relative change of speed with which a mesh is used again
-# Largest move of column ends with which it is, over the width of the contact, and the same under a
-# stiff skin: there pressures change within its thickness.
-_SAME_PLACE, _SAME_PLACE_UNDER_SKIN = 0.02, 0.01
-_STEP_TOLERANCE = 0.03  # tolerance of equilibria, over their first Newton step
+# The next two without a stiff skin and under one, where pressures change within its thickness.
+_SAME_PLACE = 0.02, 0.01  # largest move of columns with which it is, over the width of the contact
+_STEP_TOLERANCE = 0.03, 0.01  # tolerance of equilibria, over their first Newton step
 # The same of the first one: its first step is not a change, but finite strain as a whole.
 _FIRST_STEP_TOLERANCE = 1e-4
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, with which a filter is used again
@@ -316,13 +315,12 @@ class FiniteResponse:
     ) -> _LoadedMesh:
         """Return the equilibrium under these tractions, on the last mesh if that lies well."""
         last, tractions = self._mesh, applied.as_function
-        has_skin = self._columns.skin < np.inf
-        same_place = _SAME_PLACE_UNDER_SKIN if has_skin else _SAME_PLACE
-        tolerance = same_place * float(np.ptp(places[loaded]))
+        has_skin = int(self._columns.skin < np.inf)
+        tolerance = _SAME_PLACE[has_skin] * float(np.ptp(places[loaded]))
+        step_tolerance = _STEP_TOLERANCE[has_skin]
         if last is not None and last.is_near(places[loaded], self._speed_now, tolerance):
-            state = last.body.equilibrium(tractions, last.state, step_tolerance=_STEP_TOLERANCE)
+            state = last.body.equilibrium(tractions, last.state, step_tolerance=step_tolerance)
             return replace(last, state=state, applied=applied)
-        step_tolerance = _STEP_TOLERANCE
         if last is not None:
             flat, body, state = self._remeshed(last, places, loaded)
         else:

@@ -37,7 +37,8 @@ from math import atan, atanh, pi, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact.mesh import PIECES_PER_ELEMENT, cubic_matrix, gauss_points, with_means
+from rollnip.contact.cubics import cubic_matrix, gauss_points, with_means
+from rollnip.contact.mesh import PIECES_PER_ELEMENT
 from rollnip.contact.problem import Array, State
 
 ComplexArray = NDArray[np.complex128]

@@ -73,6 +73,12 @@ def without_sheet(name):
     return replace(nip_of(name), sheet=None)
 
 
+def bending_freely(name):
+    """The nip of an example, its sheet without stiffness against bending."""
+    nip = nip_of(name)
+    return replace(nip, sheet=replace(nip.sheet, bending=False))
+
+
 def thicker(nip, number):
     """Another thickness in each call: nothing tabulated before can be used again."""
     first, *others = nip.upper.layers
@@ -197,10 +203,13 @@ SINGLE = {
     "memory_two_elastic": lambda: _afresh(elastic(two_on_two()), FINITE),
     "sheet_feed": lambda: _again(nip_of("sheet-feed-nip"), FINITE),
     "sheet_feed_without": lambda: _again(without_sheet("sheet-feed-nip"), FINITE),
+    "sheet_feed_freely": lambda: _again(bending_freely("sheet-feed-nip"), FINITE),
     "sheet_laminator": lambda: _again(nip_of("sheet-laminator"), FINITE),
     "sheet_laminator_without": lambda: _again(without_sheet("sheet-laminator"), FINITE),
+    "sheet_laminator_freely": lambda: _again(bending_freely("sheet-laminator"), FINITE),
     "sheet_pull": lambda: _again(nip_of("sheet-web-pull"), FINITE),
     "sheet_pull_without": lambda: _again(without_sheet("sheet-web-pull"), FINITE),
+    "sheet_pull_freely": lambda: _again(bending_freely("sheet-web-pull"), FINITE),
     "skin_0.2": lambda: _afresh(nip_of("figure-4-top-layer-0.2mm"), CURVED),
     "skin_0.1": lambda: _afresh(nip_of("figure-4-top-layer-0.1mm"), CURVED),
     "skin_0.025": lambda: _afresh(nip_of("figure-4-top-layer-0.025mm"), CURVED),

@@ -51,12 +51,8 @@ def substitutions() -> dict[str, str]:
         "time_finite": _time(units["driven_finite"] * unit),
         "rates": _rates(rates),
         "near_saves": _span([100.0 * (1.0 - share) for share in near]) + " %",
-        "sheet_takes": _span(
-            [
-                units[f"sheet_{name}"] / units[f"sheet_{name}_without"]
-                for name in ("feed", "laminator", "pull")
-            ]
-        ),
+        "sheet_takes": _over_bare(units, ""),
+        "sheet_takes_freely": _over_bare(units, "_freely"),
         "memory_takes": _span(
             [units[name] / units[f"{name}_elastic"] for name in ("memory_one", "memory_two")]
         ),
@@ -70,6 +66,12 @@ def substitutions() -> dict[str, str]:
             for slow, fast in (("finite", "second"), ("finite", "curved"), ("second", "curved"))
         },
     }
+
+
+def _over_bare(units: dict[str, float], kind: str) -> str:
+    """Times of nips with a sheet over those of their rollers alone."""
+    names = ("feed", "laminator", "pull")
+    return _span([units[f"sheet_{one}{kind}"] / units[f"sheet_{one}_without"] for one in names])
 
 
 def _short(value: float) -> str:

@@ -206,7 +206,7 @@ class MeshSolution:
 
     @property
     def transitions_at_peak(self) -> list[int]:
-        """Nodes at transitions of which one of the three nodes beside has the highest pressure.
+        """Return the nodes at transitions that are within three nodes of the highest pressure.
 
         Between unlike surfaces the pressure follows the shear, whose slope is infinite where stick
         ends towards the trailing edge. Meshes find the height of such a peak to first order only.

@@ -51,7 +51,7 @@ class Model:
         status says by how much. For "second" the error is 0.001 in approach and load, 0.0015 in
         peak pressure, 0.002 in nip width and 0.01 in creepage, and counts in the same way. Where
         the pressure peaks within one layer thickness of the edge of a stiff top layer, the error of
-        the peak pressure is 0.02 for "finite", 0.07 with friction, and 0.15 for "second".
+        the peak pressure is 0.02 for "finite", 0.07 with friction, and 0.22 for "second".
 
     Raises
     ------

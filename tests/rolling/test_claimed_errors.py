@@ -205,3 +205,31 @@ def test_a_viscous_loss_of_second_order_claims_what_linear_fields_leave_of_it():
         second, finite = (rn.solve(nip, rn.Model(geometry=one)) for one in ("second", "finite"))
         off = abs(second.dissipation_viscous - finite.dissipation_viscous)
         assert 5e-3 * finite.dissipation_viscous < off < second.error["dissipation_viscous"]
+
+
+def test_the_tolerance_says_how_large_the_errors_of_the_models_are():
+    said = " ".join(rn.Model.__doc__.split())
+    for geometry, shares in claimed_errors.MODEL_SHARES.items():
+        part = said[said.index(f'"{geometry}" ', said.index("tolerance : wanted")) :]
+        for name in ("approach", "creepage", "nip_width", "peak_pressure"):
+            assert f"{shares[name]:g} in {name.replace('_', ' ')}" in part, (geometry, name)
+    peaks = claimed_errors.SHARE_OF_EDGE_PEAK
+    assert f'{peaks["finite"]:g} for "finite", {peaks["gripped"]:g} with friction, and' in said
+    assert f'{peaks["second"]:g} for "second"' in said
+
+
+def test_a_residual_that_is_no_number_makes_no_small_error():
+    final = replace(rn.solve(NIP).final, cut=float("nan"))
+    assert all(isnan(share) for share in claimed_errors.model_shares(final).values())
+
+
+def test_the_rolling_resistance_is_as_uncertain_as_the_load_it_is_divided_by():
+    rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.01, poisson=0.49)
+    upper = replace(NIP.upper, layers=[rn.Layer(4.0, rubber)])
+    nip = replace(NIP, upper=upper, normal=rn.Approach(0.2))
+    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    lost = solution.error["dissipation_viscous"] / nip.speed
+    of_load = solution.rolling_resistance * solution.error["load"]
+    assert of_load > 0.0
+    wanted = (lost + of_load) / solution.load
+    assert solution.error["rolling_resistance"] == pytest.approx(wanted)

@@ -102,8 +102,8 @@ def residual(
 
     It is the largest of: penetration over the approach; p times gap over peak pressure and
     approach; tension over the peak pressure; shear beyond the traction bound; drift of sticking
-    surfaces over |xi| times the nip width; slip in the direction of its own shear; errors of load
-    and traction. The traction bound is not checked within the length of the shortest zone from the
+    surfaces, and slip in the direction of its own shear, over `MeshSolution.creepage_scale` times
+    the nip width; errors of load and traction. The traction bound is not checked within the length of the shortest zone from the
     ends of zones: slip zones shorter than that are left out, and stick without them has an infinite
     shear at its end. What the slip ``left_out`` at edges covers is checked neither for that bound
     nor for drift.

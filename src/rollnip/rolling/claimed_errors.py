@@ -95,7 +95,9 @@ def secondary_claims(final: MeshSolution, spent: Powers) -> dict[str, float]:
     speed = nan if nip.speed is None else nip.speed
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
     errors = _with_model(final, spent)
-    lost = _lost(errors, spent, final, first["creepage"])
+    rates = rates_of(final.geometry, final.state.creepage)
+    lost = _lost(errors, spent, rates, first["creepage"])
+    resistance = (rates[0] * spent.lost_upper + rates[1] * spent.lost_lower) / load
     slip, upper, lower = _power_errors(errors, spent, final, first["creepage"])
     if isinstance(nip.tangential, Torque):
         lower = 0.0  # it is prescribed
@@ -109,7 +111,7 @@ def secondary_claims(final: MeshSolution, spent: Powers) -> dict[str, float]:
         "torque_lower": _torque(nip.lower, lower, passed_on),
         "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
-        "rolling_resistance": lost / load,
+        "rolling_resistance": (lost + resistance * first["load"]) / load,
         "peak_pressure_x": errors.peak_pressure_x,
         "mean_pressure": load / length * (shortened + first["load"] / load),
         "dwell_time": first["nip_width"] / speed,
@@ -216,9 +218,13 @@ def _with_model(final: MeshSolution, spent: Powers) -> SecondaryFigures:
     return SecondaryFigures(*np.maximum(errors.array(), left).tolist())
 
 
-def _lost(errors: SecondaryFigures, spent: Powers, final: MeshSolution, creepage: float) -> float:
-    """Return the error of the viscous loss, over V [N/mm]; ``creepage``: its claimed error."""
-    rates = rates_of(final.geometry, final.state.creepage)
+def _lost(
+    errors: SecondaryFigures, spent: Powers, rates: tuple[float, float], creepage: float
+) -> float:
+    """Return the error of the viscous loss, over V [N/mm].
+
+    ``rates``: `rates_of` the rollers; ``creepage``: the claimed error of the creepage.
+    """
     error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
     if rates == (1.0, 1.0) or isnan(creepage):
         return error
@@ -243,7 +249,7 @@ def model_shares(final: MeshSolution) -> dict[str, float]:
         approach = largest(approach, final.residual)
         rest = final.cut + final.residual
         left |= {"approach": approach, "load": 2.0 * approach, "creepage": rest, "nip_width": rest}
-    shares = {name: max(share, left[name]) for name, share in MODEL_SHARES[geometry].items()}
+    shares = {name: largest(share, left[name]) for name, share in MODEL_SHARES[geometry].items()}
     if _peaks_within_skin_of_edge(final):
         case = "gripped" if geometry == "finite" and grips_skin(final.nip) else geometry
         shares["peak_pressure"] = max(shares["peak_pressure"], SHARE_OF_EDGE_PEAK[case])

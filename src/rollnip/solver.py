@@ -19,7 +19,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from math import copysign
 from time import perf_counter
-from typing import Literal, NoReturn
+from typing import Literal
 
 import numpy as np
 
@@ -27,12 +27,12 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_instance
 from rollnip.all_orders import refine_all_orders, with_second_order
 from rollnip.influence import KernelCache
-from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
-from rollnip.nip import Creepage, LineLoad, Nip, Torque
-from rollnip.no_nip import impossible, is_too_deep
+from rollnip.model import FINITE, SIMPLER, Geometry, Model
+from rollnip.nip import Creepage, Nip, Torque
+from rollnip.no_nip import is_too_deep
+from rollnip.no_solution import may_spin, refuse_traction, require_grip, why_no_solution
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
-    IterationFailure,
     MeshSolution,
     RollingContact,
     half_width_guess,
@@ -41,11 +41,10 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import StrainSizes, second_share, validity_reservations
-from rollnip.verdict import ACCEPT_IT, too_slippery, too_thin, verdict, violated
+from rollnip.validity import StrainSizes, validity_reservations
+from rollnip.verdict import check
 
-_SLIDING = 1.9  # creepage at which rollers slide on each other, next to the 2 that none exceeds
-_DIVERGED = 0.1  # last relative change of second-order terms from which they count as diverged
+_SLIDING = 1.9  # creepage of full sliding; at 2 one roller stands still
 
 
 def solve(
@@ -153,17 +152,17 @@ def _solve_smooth(
     model = replace(model, geometry=geometry_for(nip, model))
     final = _solved_contact(nip, model, cache, near)
     given_up: list[tuple[Geometry, str]] = []
-    while model.geometry in FINITE and (cause := _why_no_solution(final)):
+    while cause := why_no_solution(final):
         given_up.append((model.geometry, cause))
         is_deep = final.failure is not None and final.failure.cause == "depth"
         model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
         final = _solved_contact(nip, model, cache, None)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
-    _require_grip(final)
-    if not final.settled and _may_spin(final):
+    require_grip(final)
+    if not final.settled and may_spin(final):
         _require_less_than_sliding(nip, model, cache, final)
-    converged, status = _check(final, model.tolerance)
+    converged, status = check(final)
     strains = StrainSizes.of(final)
     return SmoothSolution(
         nip=nip,
@@ -208,80 +207,16 @@ def _as_start(near: Solution | None) -> MeshSolution | None:
     return near.final if near.model.geometry == "finite" else None
 
 
-def _why_no_solution(final: MeshSolution) -> str:
-    """Return why a geometry of finite strain has no solution; "" if it has one.
-
-    A solution that misses the tolerance counts as one, so that the choice of the geometry never
-    depends on an error estimate. Second-order terms that exceed the approach do not: there the
-    expansion in orders has no meaning.
-    """
-    if not final.zones or not final.figures.peak_pressure > 0.0:
-        return "its surfaces do not touch"
-    if final.failure is not None:
-        return _how_far(final.failure)
-    if not final.geometry_change < _DIVERGED:
-        return (
-            f"its {BEYOND[final.geometry]} did not settle (they last changed by "
-            f"{final.geometry_change:.2g} of the first-order ones)"
-        )
-    if final.geometry == "second" and not second_share(final) < 1.0:
-        return f"its {BEYOND[final.geometry]} exceed the approach"
-    return "" if final.settled else "contact, stick and slip did not settle"
-
-
-def _how_far(failure: IterationFailure) -> str:
-    """Return why the iteration of contact and correction found no solution, and how far it got."""
-    done, change = failure.iterations, f"{failure.change:.2g}"
-    if failure.cause == "depth":
-        return "without finite strain a layer is pressed in by its whole thickness or more"
-    if failure.cause == "balance" and done == 0:
-        return "no equilibrium was found under its tractions, nor under a sixteenth of them"
-    if failure.cause == "balance":
-        return (
-            f"no equilibrium was found under its tractions in iteration {done + 1} of contact and "
-            f"correction (in the iteration before, its terms beyond the linear ones changed by "
-            f"{change} of the first-order ones)"
-        )
-    if failure.cause == "contact":
-        return (
-            f"contact, stick and slip did not settle in iteration {done} of contact and "
-            f"correction (in it, its terms beyond the linear ones changed by {change} of the "
-            "first-order ones)"
-        )
-    if failure.cause == "conditions":
-        return (
-            f"its terms beyond the linear ones settled in {done} iterations of contact and "
-            "correction, but its surfaces overlap or slip against their shear there"
-        )
-    return (
-        f"its terms beyond the linear ones did not settle in {done} iterations of contact and "
-        f"correction (they last changed by {change} of the first-order ones)"
-    )
-
-
-def _require_grip(final: MeshSolution) -> None:
-    """Raise InvalidInputError where friction cannot carry the traction: a roller would spin."""
-    nip, wanted = final.nip, final.wanted_traction
-    if wanted is None or final.has_grip:
-        return
-    is_known = isinstance(nip.normal, LineLoad) and not isinstance(nip.tangential, Torque)
-    if not (final.settled or is_known):
-        return  # traction or load are known only roughly; see `_require_less_than_sliding`
-    limit = nip.friction * final.figures.load
-    _refuse_traction(nip, wanted, limit)
-
-
 def _require_less_than_sliding(
     nip: Nip, model: Model, cache: KernelCache, final: MeshSolution
 ) -> None:
-    """Raise InvalidInputError where not even rollers that slide on each other pass the traction on.
+    """Raise InvalidInputError where the traction exceeds what fully sliding rollers transmit.
 
-    Their load stands for that of a given approach. A torque over the radius differs from its
-    traction by the moment of the pressure alone, for which theirs stands; for finite strain they
-    slide in "curved".
+    They are solved with a creepage of +-1.9, and in "curved" in place of finite strain. At a given
+    approach their load is that of the nip, at a given torque the moment of their pressure.
     """
     wanted = final.wanted_traction
-    assert wanted is not None  # `_may_spin`
+    assert wanted is not None  # `may_spin`
     sliding = replace(nip, tangential=Creepage(copysign(_SLIDING, wanted)))
     simple = replace(model, geometry="curved") if model.geometry in FINITE else model
     try:
@@ -294,78 +229,7 @@ def _require_less_than_sliding(
         wanted = slid.traction + missing * nip.lower.curvature
     limit = nip.friction * slid.load
     if slid.converged and abs(wanted) >= limit:
-        _refuse_traction(nip, wanted, limit)
-
-
-def _refuse_traction(nip: Nip, wanted: float, limit: float) -> NoReturn:
-    """Raise InvalidInputError for a traction that friction cannot carry [N/mm]."""
-    name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
-    raise InvalidInputError(
-        f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "
-        f"than {limit:.6g} N/mm; lower it, or raise the load or the friction."
-    )
-
-
-def _check(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
-    """Return whether the solution is verified, and the status sentence that says so or what helps.
-
-    The conditions are checked in the order in which one makes the next meaningful: iterations
-    settled, result possible, ends of zones found, contact conditions met, errors small enough.
-    """
-    is_verified, status = _first_failure(final, tolerance)
-    if not is_verified:
-        status += too_thin(final, tolerance) + too_slippery(final.nip, tolerance)
-    return is_verified, status
-
-
-def _first_failure(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
-    """Return `_check` without what it adds on very thin coverings and very small friction."""
-    geometry = final.geometry
-    if not final.settled and _may_spin(final):
-        return False, (
-            "Contact, stick and slip did not settle: the nip needs a traction of about "
-            f"{final.wanted_traction:.4g} N/mm, and friction carries about "
-            f"{final.nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the "
-            "traction or torque, or raise the load or the friction."
-        )
-    if not final.settled:
-        what = "Contact, stick and slip did not settle"
-        if final.geometry_change > 0.1 * tolerance:
-            name = "The geometry correction"
-            if geometry == "linear":  # uncorrected; a torque's traction is iterated
-                name = "The traction that gives `torque_lower`"
-            what = f"{name} did not converge (last change {final.geometry_change:.1e})"
-        simpler = "" if geometry == "linear" else '`geometry = "linear"`, '
-        return False, f"{what}; try {simpler}a smaller load or another tolerance."
-    if reason := impossible(final):
-        return False, reason
-    if not final.has_free_ends:
-        return False, (
-            "The contact, stick and slip zones were found, but not exactly where they end; try "
-            "another load or tolerance."
-        )
-    left = final.residual
-    moves = geometry in FINITE and final.geometry_change > 0.5 * left
-    if not left <= tolerance and moves:
-        return False, (
-            f"The {BEYOND[geometry]} of finite strain still change by "
-            f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
-            f"by {left:.1e}, more than the tolerance {tolerance:g}; try a smaller load, a "
-            'larger tolerance or `geometry = "curved"`.'
-        )
-    if not left <= tolerance:
-        return False, (f"{violated(left, tolerance)}; {ACCEPT_IT}.")
-    is_met, words = verdict(final, tolerance)
-    if not is_met:
-        return False, words
-    return True, f"Solved and verified: residual {left:.1e}, {words}"
-
-
-def _may_spin(final: MeshSolution) -> bool:
-    """Return whether a round that has not settled needs as much traction as friction can carry."""
-    wanted = final.wanted_traction
-    load = final.figures.load
-    return wanted is not None and load > 0.0 and abs(wanted) >= final.nip.friction * load > 0.0
+        refuse_traction(nip, wanted, limit)
 
 
 @cache  # reading it from the installed files takes as long as solving on one mesh

@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import inf, isnan
 
-from rollnip.model import Geometry, Model
+from rollnip.model import BEYOND, FINITE, Geometry, Model
 from rollnip.nip import Nip
+from rollnip.no_nip import impossible
+from rollnip.no_solution import may_spin
 from rollnip.rolling import MeshSolution, long_columns, model_shares, relative_claims
 from rollnip.rolling.changes import ROUNDING
 
@@ -46,14 +48,69 @@ WORDS: Mapping[str, str] = {
 """Words for the figures to which the tolerance applies."""
 
 
-def verdict(final: MeshSolution, tolerance: float) -> tuple[bool, str]:
+def check(final: MeshSolution) -> tuple[bool, str]:
+    """Return whether the solution is verified, and the status sentence that says so or what helps.
+
+    The conditions are checked in the order in which one makes the next meaningful: iterations
+    settled, result possible, ends of zones found, contact conditions met, errors small enough.
+    """
+    is_verified, status = _first_failure(final)
+    if not is_verified:
+        status += too_thin(final) + too_slippery(final.nip, final.contact.tolerance)
+    return is_verified, status
+
+
+def _first_failure(final: MeshSolution) -> tuple[bool, str]:
+    """Return `check` without what it adds on very thin coverings and very small friction."""
+    geometry, tolerance = final.geometry, final.contact.tolerance
+    if not final.settled and may_spin(final):
+        return False, (
+            "Contact, stick and slip did not settle: the nip needs a traction of about "
+            f"{final.wanted_traction:.4g} N/mm, and friction carries about "
+            f"{final.nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the "
+            "traction or torque, or raise the load or the friction."
+        )
+    if not final.settled:
+        what = "Contact, stick and slip did not settle"
+        if final.geometry_change > 0.1 * tolerance:
+            name = "The geometry correction"
+            if geometry == "linear":  # uncorrected; a torque's traction is iterated
+                name = "The traction that gives `torque_lower`"
+            what = f"{name} did not converge (last change {final.geometry_change:.1e})"
+        simpler = "" if geometry == "linear" else '`geometry = "linear"`, '
+        return False, f"{what}; try {simpler}a smaller load or another tolerance."
+    if reason := impossible(final):
+        return False, reason
+    if not final.has_free_ends:
+        return False, (
+            "The contact, stick and slip zones were found, but not exactly where they end; try "
+            "another load or tolerance."
+        )
+    left = final.residual
+    moves = geometry in FINITE and final.geometry_change > 0.5 * left
+    if not left <= tolerance and moves:
+        return False, (
+            f"The {BEYOND[geometry]} of finite strain still change by "
+            f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
+            f"by {left:.1e}, more than the tolerance {tolerance:g}; try a smaller load, a "
+            'larger tolerance or `geometry = "curved"`.'
+        )
+    if not left <= tolerance:
+        return False, (f"{violated(left, tolerance)}; {ACCEPT_IT}.")
+    is_met, words = verdict(final)
+    if not is_met:
+        return False, words
+    return True, f"Solved and verified: residual {left:.1e}, {words}"
+
+
+def verdict(final: MeshSolution) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence about them.
 
     A claimed error has a share from the mesh and a share from the model. In a geometry of finite
     strain the share of the model meets every tolerance of 1e-3 or more, even where it is larger
     than that, and the mesh may then leave as much of the same figure. It meets no finer tolerance.
     """
-    relative = relative_claims(final)
+    relative, tolerance = relative_claims(final), final.contact.tolerance
     if not relative:
         return False, "The solution has no pressure in the nip, so that no error can be estimated."
     model_errors = model_shares(final)
@@ -124,13 +181,13 @@ def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
     return f", and what {by} open ({named})"
 
 
-def too_thin(final: MeshSolution, tolerance: float) -> str:
+def too_thin(final: MeshSolution) -> str:
     """Return a sentence on a covering so thin that it cannot only flow sideways; "" if none.
 
     In "finite" it says, too, where columns of elements are too long for the tolerance.
     """
     nip, half, out = final.nip, 0.5 * final.figures.nip_width, ""
-    if final.geometry == "finite" and long_columns(final) > tolerance:
+    if final.geometry == "finite" and long_columns(final) > final.contact.tolerance:
         out = f" {_LONG_COLUMNS}"
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:

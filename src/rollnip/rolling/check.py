@@ -103,10 +103,10 @@ def residual(
     It is the largest of: penetration over the approach; p times gap over peak pressure and
     approach; tension over the peak pressure; shear beyond the traction bound; drift of sticking
     surfaces, and slip in the direction of its own shear, over `MeshSolution.creepage_scale` times
-    the nip width; errors of load and traction. The traction bound is not checked within the length of the shortest zone from the
-    ends of zones: slip zones shorter than that are left out, and stick without them has an infinite
-    shear at its end. What the slip ``left_out`` at edges covers is checked neither for that bound
-    nor for drift.
+    the nip width; errors of load and traction. The traction bound is not checked within the length
+    of the shortest zone from the ends of zones: slip zones shorter than that are left out, and
+    stick without them has an infinite shear at its end. What the slip ``left_out`` at edges covers
+    is checked neither for that bound nor for drift.
     """
     figures = final.figures
     peak = figures.peak_pressure

@@ -64,10 +64,7 @@ def with_free_ends(
     """
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
-    try:
-        return _refined(start, count, Aim.ENDS if fewest > ENOUGH_FOR_ZONES else Aim.ZONES)
-    except np.linalg.LinAlgError:
-        return None
+    return _refined(start, count, Aim.ENDS if fewest > ENOUGH_FOR_ZONES else Aim.ZONES)
 
 
 def _refined(state: SearchState, count: int, aim: Aim) -> MeshSolution | None:
@@ -83,7 +80,10 @@ def _refined(state: SearchState, count: int, aim: Aim) -> MeshSolution | None:
     roughness = inf
     while count <= most:
         # From the second size on the error may meet the tolerance.
-        placed = place_ends(state, count, Aim.FIGURES if history else aim)
+        try:
+            placed = place_ends(state, count, Aim.FIGURES if history else aim)
+        except np.linalg.LinAlgError:
+            break
         if placed is None:
             break
         if not placed.layout.is_like(state.layout):

@@ -164,7 +164,7 @@ def sheet_verdict(refined: Refined[AnyIterate], final: MeshSolution) -> tuple[bo
     if not refined.residual <= tolerance:
         wrong = violated(refined.residual, tolerance)
         return False, f"{wrong}; try another tolerance or a smaller load."
-    is_met, missing = verdict(final, tolerance)
+    is_met, missing = verdict(final)
     for side, error in zip(("upper", "lower"), creepage_errors(final.nip, refined), strict=True):
         if is_met and not error <= tolerance:
             figure = f"creepage on the {side} roller"

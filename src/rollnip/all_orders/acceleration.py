@@ -145,7 +145,8 @@ class BestSolution(Generic[Found]):
         ----------
         found : the solution.
         violation : its violation of the contact conditions, over the tolerance.
-        to_come : last change of its correction, or sum of those to come, over the tolerance.
+        to_come : the smaller of the last change of its correction and the sum of the changes to
+            come, over the tolerance.
         cut : violation on account of the cut-off, over the tolerance.
         """
         before, self.violation = self.violation, violation

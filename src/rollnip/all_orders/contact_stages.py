@@ -273,6 +273,6 @@ def _with_moved_ends(latest: MeshSolution, stage: ContactStage) -> MeshSolution:
                 search,
                 _COARSE_ELEMENTS if is_coarse else elements_without_crowding(latest),
                 Aim.ENDS if is_coarse else Aim.FIGURES,
-                follows_correction=not is_crowded,
+                correction_still_changes=not is_crowded,
             )
     return replace(latest if found is None else found.solution, settled=found is not None)

@@ -154,50 +154,51 @@ class _InteriorPoint:
 
         Infinite where rounding has brought a shear up to its bound.
         """
-        room = self._room(self.unknowns)
-        if not float(room.min()) > 0.0:
+        slack = self._slack(self.unknowns)
+        if not float(slack.min()) > 0.0:
             return inf
-        products = float(room @ self.creeps) / self.creeps.size
+        products = float(slack @ self.creeps) / self.creeps.size
         return max(products, float(np.abs(self._residual()).max()))
 
     def advance(self) -> None:
         """Take one predictor-corrector step (Mehrotra), shortened to keep all factors positive."""
-        room, creeps = self._room(self.unknowns), self.creeps
-        residual, rates = self._residual(), creeps / room
+        slack, creeps = self._slack(self.unknowns), self.creeps
+        residual, rates = self._residual(), creeps / slack
         factors, pivots, info = lapack.dgetrf(self._jacobian(rates), overwrite_a=1)
         if info != 0:
             raise np.linalg.LinAlgError("Singular matrix")
 
         def direction(products: Array | float) -> tuple[Array, Array, Array]:
-            """Return the steps of the unknowns, of the distances to their bounds, and of creeps."""
-            wanted = products / room - creeps
-            found, _ = lapack.dgetrs(factors, pivots, self._on_rows(wanted) - residual)
-            opened = self._room(found)
-            return found, opened, wanted - rates * opened
+            """Return the steps of unknowns, slacks and creeps towards products of this size."""
+            to_products = products / slack - creeps
+            d_unknowns, _ = lapack.dgetrs(factors, pivots, self._on_rows(to_products) - residual)
+            d_slack = self._slack(d_unknowns)
+            return d_unknowns, d_slack, to_products - rates * d_slack
 
-        mean = float(room @ creeps) / creeps.size
-        _, opened, slid = direction(0.0)
-        step = _longest(room, opened, creeps, slid)
-        remaining = float((room + step * opened) @ (creeps + step * slid)) / creeps.size
-        found, opened_too, slid_too = direction(mean * (remaining / mean) ** 3 - opened * slid)
-        step = _longest(room, opened_too, creeps, slid_too)
+        mean = float(slack @ creeps) / creeps.size
+        _, d_slack, d_creeps = direction(0.0)
+        step = _longest(slack, d_slack, creeps, d_creeps)
+        reached = float((slack + step * d_slack) @ (creeps + step * d_creeps)) / creeps.size
+        centring = (reached / mean) ** 3
+        d_unknowns, d_slack, d_creeps = direction(mean * centring - d_slack * d_creeps)
+        step = _longest(slack, d_slack, creeps, d_creeps)
         step = step if step == 1.0 else _SHORT_OF * step
-        self.unknowns = self.unknowns + step * found
-        self.creeps = creeps + step * slid_too
+        self.unknowns = self.unknowns + step * d_unknowns
+        self.creeps = creeps + step * d_creeps
         if not np.all(np.isfinite(self.unknowns)):
             raise np.linalg.LinAlgError("no finite solution")
 
     def solution(self, steps: int) -> Complementary:
         """Return unknowns in their own units, and the states of nodes."""
         k, s = self.problem.pressures.size, self.problem.shears.size
-        closed = self._room(self.unknowns) > self.creeps
+        closed = self._slack(self.unknowns) > self.creeps
         states = np.where(~closed[k : k + s], SLIP_PLUS, STICK)
         states[~closed[k + s :]] = SLIP_MINUS
         found = self.unknowns * self.sizes
         return Complementary(found, closed[:k], states.astype(np.int8), steps)
 
-    def _room(self, unknowns: Array) -> Array:
-        """Return the distances to the bounds: p, then mu p - q and mu p + q of all shears."""
+    def _slack(self, unknowns: Array) -> Array:
+        """Return the slacks of the bounds: p, then mu p - q and mu p + q of all shears."""
         bound, shear = unknowns[self.problem.bounding], unknowns[self.problem.shears]
         return np.concatenate([unknowns[self.problem.pressures], bound - shear, bound + shear])
 
@@ -224,7 +225,7 @@ class _InteriorPoint:
         return out
 
 
-def _longest(room: Array, opened: Array, creeps: Array, slid: Array) -> float:
+def _longest(slack: Array, d_slack: Array, creeps: Array, d_creeps: Array) -> float:
     """Return the largest share of a step, at most 1, that makes no factor negative."""
-    fastest = max(float(np.max(-opened / room)), float(np.max(-slid / creeps)))
+    fastest = max(float(np.max(-d_slack / slack)), float(np.max(-d_creeps / creeps)))
     return 1.0 if fastest <= 1.0 else 1.0 / fastest

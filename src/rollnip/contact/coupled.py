@@ -113,21 +113,21 @@ def next_states(
     tension keep their states.
     """
     states, pressure = solution.states, solution.pressure
-    depth, drift = problem.gap_and_creep(solution)
+    gap, creep = problem.gap_and_creep(solution)
     in_contact, little = states != FREE, rounding * np.abs(pressure).max()
     kept: Mask = pressure >= -little
     if holds_contact:
         kept &= in_contact
     else:
         scale = np.abs(problem.clearance).max() + abs(solution.approach)
-        kept = np.where(in_contact, kept, depth < -rounding * scale)
+        kept = np.where(in_contact, kept, gap < -rounding * scale)
     others = states if holds_contact else FREE
     if problem.friction == 0.0:
         return np.where(kept, np.maximum(states, STICK), others).astype(np.int8)
     # The shear that would bring the creep to zero if only this node's shear changed. It tells a
     # slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
-    sought = solution.shear - drift / own
+    sought = solution.shear - creep / own
     bound = problem.friction * np.maximum(pressure, 0.0)
     out = stick_and_slip(states, sought, bound, problem.friction * little)
     out = np.where(kept, out, others).astype(np.int8)

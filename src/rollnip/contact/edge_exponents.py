@@ -87,10 +87,11 @@ def left_out_of_tractions(kappa: complex, pieces: int) -> ComplexArray:
 
 @lru_cache(maxsize=128)
 def left_out_of_creep(kappa: complex, pieces: int = PIECES_PER_ELEMENT) -> complex:
-    """Return rho, for the creep that linear pieces make in the edge element although all stick.
+    """Return the factor rho of the spurious creep in the element at an edge.
 
-    At a leading edge up to which the surfaces stick that creep is Im[(p + i q) rho] times what a
-    unit shear at the last node makes there, with p + i q at that node. It is the integral of the
+    Linear pieces of the tractions make a creep in the element at a leading edge up to which the
+    surfaces stick, where the exact tractions make none. It is Im[(p + i q) rho] times the creep by
+    a unit shear at the last node, with p + i q at that node. It is the integral of the
     difference between the acting and the exact tractions, with the influence functions of
     half-planes: -ln|x| of either traction in its own direction, and -beta pi/2 sign(x) across,
     where beta is -tanh(pi Im kappa).

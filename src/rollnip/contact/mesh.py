@@ -31,14 +31,15 @@ _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least crowding; below it digi
 class Subdivision:
     """Finer nodes between the nodes of a mesh, and the interpolation of nodal values to them.
 
-    On cosine nodes a traction is smooth as a function of the node *index*, right up to an edge
-    where it goes as a square root in x. So a cubic in the index, through four nodes of one zone,
-    interpolates it far better than a straight line in x.
+    Nodal tractions are interpolated by cubics in the node *index*, through four nodes of one zone.
+    On cosine nodes a traction is smooth in the index, right up to an edge where it goes as a square
+    root in x, so that this is far better than a straight line in x.
 
-    Between the finer nodes the acting tractions are linear. The mean of a linear piece differs from
-    that of the curve by h^2/12 times the second derivative. So the acting tractions are adjusted to
-    have the means of the cubics (each node takes half of the differences on its two sides). That
-    makes everything computed from them fourth-order accurate rather than second.
+    Displacements are computed from a traction that is linear between the finer nodes, the acting
+    one. The mean of a linear piece differs from that of the curve by h^2/12 times the second
+    derivative. So the acting traction is adjusted to have the means of the cubics: each node takes
+    half of the differences on its two sides. That makes everything computed from it fourth-order
+    accurate rather than second.
 
     Attributes
     ----------
@@ -46,9 +47,9 @@ class Subdivision:
     elements : number in each zone before the subdivision; empty where nothing was subdivided, or
         where the zones are not those of a solution, as in a search node by node.
     crowding : of each zone, see `cosine_nodes`.
-    values : (M+1, N+1) interpolation from the N+1 mesh nodes; None: the nodes are the same.
-    acting : (M+1, N+1) likewise, to the tractions that act.
-    means : (M-1, N) from the mesh nodes but the first, to mean values between nodes[1:].
+    values : (M+1, N+1) from nodal values to the values of the cubics; None: the nodes are the same.
+    acting : (M+1, N+1) from nodal values to those of the acting traction; None likewise.
+    means : (M-1, N) from nodal values, but the first, to means of the cubics between nodes[1:].
     edges : indices in nodes[1:-1] of the mesh of the trailing and leading edge of each piece of
         the contact, in turn.
     exponents : at the edge or transition at each of `breaks`, see `edge_exponents`; 0 for a square

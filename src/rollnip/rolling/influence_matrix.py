@@ -28,7 +28,7 @@ def unit_tractions(fine: Subdivision) -> Array | None:
     return np.concatenate([unit, left_out.real, left_out.imag], axis=1)
 
 
-def influence_matrix(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
+def influence_matrix(fine: Subdivision, per_traction: Array, shortening: Array | None) -> Array:
     """Return `ContactProblem.influence`: gap and creep per nodal traction (theory section 5).
 
     The creep of an interval is int (du_x/dx - u_z/R) dx of the upper minus that of the lower
@@ -36,21 +36,21 @@ def influence_matrix(fine: Subdivision, made: Array, shorter: Array | None) -> A
 
     Parameters
     ----------
-    made : (3, N, columns) displacements zz, xz, xx of both surfaces together at nodes[1:] per
-        `unit_tractions`.
-    shorter : (N, 2 (N-1)) see `shorter_per_traction`; None: 0.
+    per_traction : (3, N, columns) displacements zz, xz, xx of both surfaces together at nodes[1:],
+        per `unit_tractions`.
+    shortening : (N, 2 (N-1)) see `hoop_shortening`; None: 0.
     """
-    n = made.shape[1] - 1
+    n = per_traction.shape[1] - 1
     out = np.zeros((2 * n, 2 * n))
-    out[:n, :n] = made[0, :-1, :n]
-    _, xz, xx = made[:, :, :n]
+    out[:n, :n] = per_traction[0, :-1, :n]
+    _, xz, xx = per_traction[:, :, :n]
     np.negative(xz[:-1], out=out[:n, n:])
     np.subtract(xz[1:], xz[:-1], out=out[n:, :n])
     np.subtract(xx[1:], xx[:-1], out=out[n:, n:])
-    if shorter is not None:
-        out[n:] -= fine.integrated(shorter)
+    if shortening is not None:
+        out[n:] -= fine.integrated(shortening)
     _correct_creep_to_edges(fine, out)
-    _add_left_out(fine, made, out)
+    _add_left_out(fine, per_traction, out)
     return out
 
 
@@ -65,7 +65,7 @@ def _correct_creep_to_edges(fine: Subdivision, out: Array) -> None:
         creep[n + node] -= rho.real
 
 
-def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
+def _add_left_out(fine: Subdivision, per_traction: Array, out: Array) -> None:
     """Add what the nodal tractions beside the edges and transitions of unlike surfaces leave out.
 
     If D z acts, with z = p + i q at one node and D complex, the gap that it makes is the real part
@@ -75,7 +75,7 @@ def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
     n, ends = len(out) // 2, fine.unlike_ends
     if not ends:
         return
-    zz, xz, xx = made[:, :, n : n + len(ends)] + 1j * made[:, :, n + len(ends) :]
+    zz, xz, xx = per_traction[:, :, n : n + len(ends)] + 1j * per_traction[:, :, n + len(ends) :]
     gap, shift = zz + 1j * xz, xz - 1j * xx
     by_traction = np.concatenate([gap[:-1], shift[1:] - shift[:-1]])
     for (node, _, inwards), column in zip(ends, by_traction.T, strict=True):
@@ -84,7 +84,7 @@ def _add_left_out(fine: Subdivision, made: Array, out: Array) -> None:
             out[:, n + one] -= sign * column.imag
 
 
-def shorter_per_traction(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
+def hoop_shortening(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
     """Return u_z/R of the upper minus the lower surface, per pressure and per shear; None: 0.
 
     Parameters

@@ -38,7 +38,7 @@ class Aim(IntEnum):
 
 
 def place_ends(
-    start: SearchState, count: int, aim: Aim, *, follows_correction: bool = False
+    start: SearchState, count: int, aim: Aim, *, correction_still_changes: bool = False
 ) -> SearchState | None:
     """Return the solution with placed ends on a mesh of given size, and its zones.
 
@@ -51,8 +51,8 @@ def place_ends(
     count : rough number of elements.
     aim : how exactly. Two meshes show how figures depend on ends, or one if the previous size has
         shown it.
-    follows_correction : whether a correction held has moved the ends and will move them again, on
-        meshes like the last one. They need not be placed then, see `_have_followed`.
+    correction_still_changes : whether the correction held has moved the ends and will move them
+        again, on meshes like the last one. Then they need only agree, see `_ends_agree`.
 
     Returns
     -------
@@ -60,13 +60,13 @@ def place_ends(
     """
     # The second order held so far is from a coarser mesh: each size evaluates its own.
     search = EndSearch.of(replace(start, to_come=inf), count)
-    if follows_correction:
+    if correction_still_changes:
         fine = start.solution.mesh.fine
         search.shape = np.array(fine.elements), fine.crowding
     most_meshes = _most_meshes(start.contact, start.layout)
     while search.meshes < most_meshes and _can_be_placed(search.layout):
         search.solve_mesh()
-        if follows_correction and _have_followed(search, aim):
+        if correction_still_changes and _ends_agree(search, aim):
             return search.result()
         # The figures show errors of ends only with the zones of the previous size.
         is_new = aim is Aim.FIGURES and not search.layout.is_like(start.layout)
@@ -84,31 +84,38 @@ def place_ends(
     return None
 
 
-def _have_followed(search: EndSearch, aim: Aim) -> bool:
-    """Return whether the ends on a mesh have followed a correction that may still change.
+def _ends_agree(search: EndSearch, aim: Aim) -> bool:
+    """Return whether all ends lie within the tolerance of where the solution puts them.
 
-    All of them lie within the tolerance of where the solution puts them: a transition that is
-    misplaced by more has shears beyond the bound beside it, and the correction of such shears would
-    move it again. The solution must call for no other zones. Beside a boundary layer or a short
+    That is enough while the correction still changes. A transition that is misplaced by more has
+    shears beyond the bound beside it, and the correction of such shears would move it again. The
+    solution must call for no other zones. Beside a boundary layer or a short
     zone that is not exact enough for the last contact: there pressure and shear must be right.
     """
     proposed, latest = search.proposed, search.latest
     distance = proposed.distance(search.layout, transitions_count=1.0)
     if not (proposed.is_proper and distance <= search.contact.tolerance):
         return False
-    if aim is Aim.FIGURES and (_is_false_at_edge(latest) or _is_false_at_transition(search)):
+    if aim is Aim.FIGURES and (
+        _shows_misplaced_edge(latest) or _shows_misplaced_transition(search)
+    ):
         return False
     return changed_states(search, checks_contact=_are_ends_near(search, aim)) is None
 
 
 def _is_placed(search: EndSearch, aim: Aim) -> bool:
     """Return whether the ends on a mesh are placed, and nothing in its solution denies it."""
-    contact, layout, latest, is_last = search.contact, search.layout, search.latest, aim > Aim.ENDS
+    contact, layout, latest, is_last = (
+        search.contact,
+        search.layout,
+        search.latest,
+        aim is Aim.FIGURES,
+    )
     return (
         _are_ends_near(search, aim)
         and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)
         and not (_figures_decide(search, aim) and _figures_change(search))
-        and not (_is_false_at_edge(latest) or (is_last and _is_false_at_transition(search)))
+        and not (_shows_misplaced_edge(latest) or (is_last and _shows_misplaced_transition(search)))
         and not crowds_more(crowding_for(contact, layout), latest.mesh.fine.crowding)
     )
 
@@ -155,7 +162,7 @@ def _figures_change(search: EndSearch) -> bool:
     return replace(search.latest, error=end_error).error_ratio > NEGLIGIBLE
 
 
-def _is_false_at_transition(search: EndSearch) -> bool:
+def _shows_misplaced_transition(search: EndSearch) -> bool:
     """Return whether shear or pressure show that a transition is misplaced.
 
     Between unlike surfaces the pressure beside a transition may rise to a cusp. Where that is the
@@ -199,7 +206,7 @@ def _most_meshes(contact: RollingContact, layout: Layout) -> int:
     return most
 
 
-def _is_false_at_edge(latest: MeshSolution) -> bool:
+def _shows_misplaced_edge(latest: MeshSolution) -> bool:
     """Return whether the pressure at an edge shows that the edge is misplaced."""
     pressure = latest.state.pressure
     return latest.mesh.has_tension_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)

@@ -26,8 +26,8 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.displacements import Displacements, Field, SecondFields
 from rollnip.rolling.influence_matrix import (
+    hoop_shortening,
     influence_matrix,
-    shorter_per_traction,
     unit_tractions,
 )
 
@@ -167,10 +167,9 @@ class Mesh:
         influence = np.empty((0, 0))
         if cls.is_bare:
             xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
-            made = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
+            both = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
             per_traction = np.ascontiguousarray(per_traction[:, :, :n])
-            shorter = shorter_per_traction(per_traction, kernels.hoops)
-            influence = influence_matrix(fine, made, shorter)
+            influence = influence_matrix(fine, both, hoop_shortening(per_traction, kernels.hoops))
         weights = load_weights(fine.nodes)
         return cls(
             nodes=nodes,

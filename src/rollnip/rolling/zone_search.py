@@ -56,11 +56,15 @@ def other_zones(search: EndSearch, *, is_placed: bool, is_near: bool) -> Iterato
         if found is not None and (is_placed or not found.layout.is_like(layout)):
             yield found
     if is_placed:
-        yield from _zones_that_states_do_not_show(search)
+        yield from _unresolved_zones(search)
 
 
-def _zones_that_states_do_not_show(search: EndSearch) -> Iterator[SearchState]:
-    """Yield the zones that a solution with placed ends calls for, though no node's state does."""
+def _unresolved_zones(search: EndSearch) -> Iterator[SearchState]:
+    """Yield zones that no nodal state shows: slip at an edge, a gap at tension, weak changes.
+
+    The ends of the solution are placed. Changes of state are weak that violate the conditions by
+    less than counts, but change the creepage.
+    """
     latest, layout = search.latest, search.layout
     slipping = _with_slip_at_edges(latest, layout)
     if slipping is not None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rollnip.contact import Control, CoupledActiveSet, Inequalities, State, interior_point
+from rollnip.contact import Control, Inequalities, State, active_set, interior_point
 
 
 def _inequalities(problem, slope=1.0):
@@ -34,7 +34,7 @@ def test_states_and_tractions_are_those_of_the_active_set(half_spaces, mesh, wit
     control = Control(load=1.57, approach=None, traction=None, creepage=0.15)
     nodes = mesh(60, 1.3)
     problem = half_spaces(nodes, control=control, friction=0.3, mismatch=mismatch)
-    expected = CoupledActiveSet().solve(problem, within(problem, 1.0))
+    expected = active_set(problem, within(problem, 1.0))
     assert expected.settled
     found = interior_point(*_inequalities(problem))
     n = problem.x.size

@@ -9,10 +9,10 @@ import pytest
 from rollnip.closed_forms import free_rolling_full_stick
 from rollnip.contact import (
     Control,
-    CoupledActiveSet,
-    Safeguarded,
     State,
+    active_set,
     contact_zones,
+    solve_nodes,
 )
 from rollnip.contact.coupled import solve_states
 from rollnip.contact.problem import shear_signs
@@ -52,7 +52,7 @@ def test_against_all_states(random_problem, seed, creepage):
             continue
         if violation(problem, trial) < 1e-9:
             expected.append(trial)
-    found = CoupledActiveSet().solve(problem, np.ones(n, np.int8))
+    found = active_set(problem, np.ones(n, np.int8))
     if not found.settled:
         pytest.skip("cycles: the safeguard's case")
     assert violation(problem, found) < 1e-9
@@ -63,7 +63,7 @@ def test_against_all_states(random_problem, seed, creepage):
 @pytest.mark.parametrize("start", [0.1, 0.6, 0.99, 2.0])
 def test_hertz_from_any_start(half_spaces, mesh, within, unit_load, start):
     problem = half_spaces(mesh(60, 1.1), control=Control(unit_load, None, 0.0, None), friction=0.0)
-    found = CoupledActiveSet().solve(problem, within(problem, start))
+    found = active_set(problem, within(problem, start))
     assert found.settled
     assert violation(problem, found) < 1e-9
     exact = np.sqrt(np.maximum(1.0 - problem.x**2, 0.0))
@@ -82,7 +82,7 @@ def test_carter(half_spaces, mesh, within, unit_load, friction, share):
     inner = (1.0 - 2.0 * c,) if abs(share) > 0.01 else ()
     control = Control(unit_load, None, share * friction * unit_load, None)
     problem = half_spaces(mesh(90, 1.0, inner), control=control, friction=friction)
-    found = CoupledActiveSet().solve(problem, within(problem, 0.8))
+    found = active_set(problem, within(problem, 0.8))
     assert found.settled
     assert violation(problem, found) < 1e-9
     exact = np.sign(share) * friction * (1.0 - c)
@@ -99,7 +99,7 @@ def test_carter_at_given_creepage(half_spaces, mesh, within, unit_load, creepage
     friction = 0.1
     control = Control(unit_load, None, None, creepage)
     problem = half_spaces(mesh(90, 1.02), control=control, friction=friction)
-    found = CoupledActiveSet().solve(problem, within(problem, 0.8))
+    found = active_set(problem, within(problem, 0.8))
     s = min(abs(creepage) / friction, 1.0)
     traction = float(problem.weights @ found.shear)
     exact = np.sign(creepage) * friction * unit_load * s * (2.0 - s)
@@ -112,12 +112,12 @@ def test_one_traction_for_each_creepage(half_spaces, mesh, within, unit_load):
     control = Control(unit_load, None, 0.07, None)
     problem = half_spaces(mesh(50), control=control, friction=0.1, mismatch=0.3)
     start = within(problem, 0.8)
-    one = Safeguarded().solve(problem, start)
+    one = solve_nodes(problem, start)
     back = Control(unit_load, None, None, one.creepage)
-    other = Safeguarded().solve(replace(problem, control=back), start)
+    other = solve_nodes(replace(problem, control=back), start)
     np.testing.assert_allclose(other.shear, one.shear, atol=1e-9)
     approach = Control(None, one.approach, 0.07, None)
-    third = Safeguarded().solve(replace(problem, control=approach), start)
+    third = solve_nodes(replace(problem, control=approach), start)
     assert problem.weights @ third.pressure == pytest.approx(unit_load, rel=1e-8)
 
 
@@ -143,7 +143,7 @@ def test_dissimilar_full_stick(half_spaces, mesh, within, mismatch):
         friction=2.7,
         mismatch=mismatch,
     )
-    found = Safeguarded().solve(problem, within(problem, 0.7 * exact.half_width))
+    found = solve_nodes(problem, within(problem, 0.7 * exact.half_width))
     assert found.settled
     assert violation(problem, found) < 1e-8
     assert found.creepage == pytest.approx(np.sign(mismatch) * exact.creepage, rel=0.01)
@@ -152,13 +152,13 @@ def test_dissimilar_full_stick(half_spaces, mesh, within, mismatch):
 
 def test_empty_start(half_spaces, mesh, unit_load):
     problem = half_spaces(mesh(40, 1.1), control=Control(unit_load, None, 0.05, None), friction=0.1)
-    found = CoupledActiveSet().solve(problem, np.zeros(problem.x.size, np.int8))
+    found = active_set(problem, np.zeros(problem.x.size, np.int8))
     assert found.settled
     assert violation(problem, found) < 1e-9
 
 
-def test_stops_after_max_steps(half_spaces, mesh, within, unit_load):
+def test_stops_after_most_steps(half_spaces, mesh, within, unit_load):
     problem = half_spaces(mesh(80, 1.5), control=Control(unit_load, None, 0.09, None), friction=0.1)
-    found = CoupledActiveSet(max_steps=2).solve(problem, within(problem, 0.1))
+    found = active_set(problem, within(problem, 0.1), most_steps=2)
     assert not found.settled
     assert found.steps == 2

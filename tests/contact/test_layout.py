@@ -8,10 +8,10 @@ import pytest
 from rollnip.contact import (
     ContactState,
     ContactZone,
-    CoupledActiveSet,
     Layout,
     State,
     ZoneEnd,
+    active_set,
     cosine_nodes,
     elements_of_zones,
     left_out_of_creep,
@@ -305,7 +305,7 @@ def test_zones_are_found_from_states_of_nodes():
     traction = HERTZ_LOAD * (1.0 - b * b)
     problem = half_planes([-1.0, 1.0], [24], load=HERTZ_LOAD, traction=traction, friction=1.0)
     start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
-    found = CoupledActiveSet(holds_contact=True).solve(problem, start)
+    found = active_set(problem, start, holds_contact=True)
     np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
     layout = Layout.from_nodes(problem.x, found, 1.0, (-1.0, 1.0))
     assert layout is not None

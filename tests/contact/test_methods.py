@@ -1,21 +1,23 @@
 """Two ways to the same solution, and that each of them ends."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 from rollnip.contact import (
     Control,
-    CoupledActiveSet,
-    Safeguarded,
     State,
+    active_set,
     contact_zones,
+    methods,
+    solve_nodes,
 )
 from rollnip.contact.coupled import next_states
 
 # The active set has no step, so that the interior point finds all states at once.
-AT_ONCE = Safeguarded(fast=CoupledActiveSet(max_steps=1))
+at_once = partial(solve_nodes, most_steps=1)
 SHARES = [-0.99, -0.4, 0.0, 0.1, 0.8, 0.99]
 
 
@@ -41,9 +43,9 @@ def test_similar_half_spaces(half_spaces, mesh, within, unit_load, friction, sha
     """Carter's problem: pressure and shear do not see each other."""
     problem = driven(half_spaces, mesh(30, 1.02), unit_load, friction, share)
     start = within(problem, 0.8)
-    coupled = CoupledActiveSet().solve(problem, start)
-    assert_alike(problem, coupled, AT_ONCE.solve(problem, start))
-    assert_alike(problem, coupled, Safeguarded().solve(problem, start))
+    coupled = active_set(problem, start)
+    assert_alike(problem, coupled, at_once(problem, start))
+    assert_alike(problem, coupled, solve_nodes(problem, start))
 
 
 @pytest.mark.parametrize("share", SHARES)
@@ -53,23 +55,21 @@ def test_similar_half_spaces(half_spaces, mesh, within, unit_load, friction, sha
 def test_dissimilar_half_spaces(half_spaces, mesh, within, unit_load, friction, mismatch, share):
     problem = driven(half_spaces, mesh(30, 1.05), unit_load, friction, share, mismatch)
     start = within(problem, 0.8)
-    safe = Safeguarded().solve(problem, start)
-    assert_alike(problem, safe, AT_ONCE.solve(problem, start), 1e-7)
+    safe = solve_nodes(problem, start)
+    assert_alike(problem, safe, at_once(problem, start), 1e-7)
 
 
-class InVain(Safeguarded):
-    """An interior point that takes seven steps and does not settle."""
-
-    def _by_interior_point(self, problem):
+def test_steps_of_both_ways_count_once(half_spaces, mesh, unit_load, monkeypatch):
+    def in_vain(problem):
+        """Take seven steps and do not settle."""
         states = np.ones(problem.x.size, dtype=np.int8)
-        found = CoupledActiveSet(max_steps=1).solve(problem, states)
+        found = active_set(problem, states, most_steps=1)
         return replace(found, steps=7, settled=False)
 
-
-def test_steps_of_both_ways_count_once(half_spaces, mesh, unit_load):
+    monkeypatch.setattr(methods, "_by_interior_point", in_vain)
     problem = driven(half_spaces, mesh(30, 1.05), unit_load, 0.5, 0.8)
     start = np.ones(problem.x.size, dtype=np.int8)
-    found = InVain(fast=CoupledActiveSet(max_steps=2)).solve(problem, start)
+    found = solve_nodes(problem, start, most_steps=2)
     assert not found.settled
     assert found.steps == 2 + 7
 
@@ -83,8 +83,8 @@ def random_states(seed, n):
 def test_any_start_ends_in_the_same_solution(half_spaces, mesh, unit_load, friction, seed):
     """States that no contact ever had: the active set may cycle, the safeguard may not."""
     problem = driven(half_spaces, mesh(24, 1.2), unit_load, friction, 0.6, 0.4)
-    found = Safeguarded().solve(problem, random_states(seed, problem.x.size))
-    usual = Safeguarded().solve(problem, np.where(np.abs(problem.x) < 0.7, 1, 0).astype(np.int8))
+    found = solve_nodes(problem, random_states(seed, problem.x.size))
+    usual = solve_nodes(problem, np.where(np.abs(problem.x) < 0.7, 1, 0).astype(np.int8))
     assert_alike(problem, usual, found, 1e-7)
 
 
@@ -94,8 +94,8 @@ def test_the_slow_way_alone(half_spaces, mesh, unit_load, friction, seed):
     """With no step left to the active set, the safeguard carries all the weight."""
     problem = driven(half_spaces, mesh(24, 1.2), unit_load, friction, 0.6, 0.4)
     start = random_states(seed, problem.x.size)
-    found = AT_ONCE.solve(problem, start)
-    usual = Safeguarded().solve(problem, np.where(np.abs(problem.x) < 0.7, 1, 0).astype(np.int8))
+    found = at_once(problem, start)
+    usual = solve_nodes(problem, np.where(np.abs(problem.x) < 0.7, 1, 0).astype(np.int8))
     assert found.settled
     np.testing.assert_allclose(found.pressure, usual.pressure, atol=1e-7)
     np.testing.assert_allclose(found.shear, usual.shear, atol=1e-7)
@@ -119,7 +119,7 @@ def test_two_contact_intervals(half_spaces, friction, share):
     """Contact about x = +-1: both ways find the same two intervals, from either end."""
     problem = w_shaped(half_spaces, friction, share if friction else 0.0)
     starts = [np.abs(problem.x) < 0.5, problem.x > 1.2, problem.x < -0.9]
-    found = [Safeguarded().solve(problem, s.astype(np.int8)) for s in starts]
+    found = [solve_nodes(problem, s.astype(np.int8)) for s in starts]
     for other in found[1:]:
         assert other.settled
         np.testing.assert_allclose(other.pressure, found[0].pressure, atol=1e-7)
@@ -134,7 +134,7 @@ def test_two_contact_intervals(half_spaces, friction, share):
 def test_nearly_sliding(half_spaces, mesh, within, unit_load, share):
     """Stick over 3 % of the contact: xi -> mu (1 - sqrt(0.001))."""
     problem = driven(half_spaces, mesh(60, 1.0), unit_load, 0.5, share)
-    found = Safeguarded().solve(problem, within(problem, 0.8))
+    found = solve_nodes(problem, within(problem, 0.8))
     assert found.settled
     exact = np.sign(share) * 0.5 * (1.0 - np.sqrt(0.001))
     assert found.creepage == pytest.approx(exact, rel=0.02)
@@ -143,7 +143,7 @@ def test_nearly_sliding(half_spaces, mesh, within, unit_load, share):
 def test_settled_means_that_the_states_reproduce_themselves(half_spaces, mesh, within, unit_load):
     for share in SHARES:
         problem = driven(half_spaces, mesh(30, 1.02), unit_load, 0.3, share, 0.4)
-        found = Safeguarded().solve(problem, within(problem, 0.8))
+        found = solve_nodes(problem, within(problem, 0.8))
         np.testing.assert_array_equal(next_states(problem, found, 1e-7), found.states)
 
 
@@ -153,15 +153,15 @@ def test_prescribed_creepage(half_spaces, mesh, within, unit_load, creepage):
     problem = driven(half_spaces, mesh(30, 1.02), unit_load, 0.1, 0.0)
     problem = replace(problem, control=Control(unit_load, None, None, creepage))
     start = within(problem, 0.8)
-    coupled = CoupledActiveSet().solve(problem, start)
-    assert_alike(problem, coupled, AT_ONCE.solve(problem, start))
+    coupled = active_set(problem, start)
+    assert_alike(problem, coupled, at_once(problem, start))
 
 
 def test_without_friction(half_spaces, mesh, within, unit_load):
     problem = driven(half_spaces, mesh(30, 1.02), unit_load, 0.0, 0.0)
     start = within(problem, 0.8)
-    for method in (CoupledActiveSet(), Safeguarded()):
-        found = method.solve(problem, start)
+    for method in (active_set, solve_nodes):
+        found = method(problem, start)
         assert found.settled
         assert np.isnan(found.creepage)
         np.testing.assert_array_equal(found.shear, 0.0)
@@ -172,11 +172,11 @@ def test_every_way_ends_on_random_matrices(random_problem, seed):
     """No physics behind them: an answer in finite time, and ``settled`` only where it holds."""
     control = Control(2.0, None, 0.1, None)
     problem = random_problem(seed, 12, friction=0.7, control=control, coupling=1.0)
-    for method in (CoupledActiveSet(), AT_ONCE, Safeguarded()):
+    for method in (active_set, at_once, solve_nodes):
         try:
-            found = method.solve(problem, np.ones(12, np.int8))
+            found = method(problem, np.ones(12, np.int8))
         except np.linalg.LinAlgError:
             continue
         assert np.all(np.isfinite(found.pressure))
-        if found.settled and method == Safeguarded():
+        if found.settled and method is solve_nodes:
             np.testing.assert_array_equal(next_states(problem, found, 1e-6), found.states)

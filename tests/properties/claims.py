@@ -20,10 +20,10 @@ from population import random_case
 
 import rollnip as rn
 from rollnip.contact import (
-    CoupledActiveSet,
-    Safeguarded,
     State,
+    active_set,
     contact_zones,
+    solve_nodes,
 )
 from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling.assemble import contact_problem, lagged_terms
@@ -178,8 +178,8 @@ def _settled_on(solution, mesh, before, still):
 
 def _solved(problem, states):
     if problem.friction == 0.0:
-        return Safeguarded().solve(problem, states)
-    return CoupledActiveSet(max_steps=60).solve(problem, states)
+        return solve_nodes(problem, states)
+    return active_set(problem, states, most_steps=60)
 
 
 def _figures(problem, state, zones, lean):

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import Safeguarded, contact_intervals, contact_zones
+from rollnip.contact import contact_intervals, contact_zones, solve_nodes
 from rollnip.rolling.assemble import contact_problem, initial_terms
 from rollnip.rolling.surfaces import Mesh
 
@@ -72,7 +72,7 @@ def test_pieces_are_those_of_a_fine_mesh_whose_nodes_find_their_states_themselve
     start = np.zeros(problem.x.size, dtype=np.int8)
     start[np.abs(problem.x - found.contact[0][0] - 0.05) < 0.02] = 1
     start[np.abs(problem.x - found.contact[1][1] + 0.05) < 0.02] = 1
-    state = Safeguarded().solve(problem, start)
+    state = solve_nodes(problem, start)
     assert state.settled
     pieces = contact_intervals(contact_zones(problem.x, state, 0.0))
     np.testing.assert_allclose(found.contact, pieces, atol=1e-3)  # the length of its elements

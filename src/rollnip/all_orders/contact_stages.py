@@ -17,7 +17,7 @@ from math import inf
 import numpy as np
 
 from rollnip.all_orders.corrections import cut_factor_at
-from rollnip.contact import NEAR_ENOUGH
+from rollnip.contact import NEAR_ENOUGH, solve_nodes
 from rollnip.model import Model
 from rollnip.rolling.assemble import lagged_terms
 from rollnip.rolling.changes import NEGLIGIBLE
@@ -34,7 +34,6 @@ from rollnip.rolling.lengths import grips_skin
 from rollnip.rolling.mesh_solution import MeshSolution
 from rollnip.rolling.placing import Aim, place_ends
 from rollnip.rolling.refinement import (
-    BY_NODES,
     SIZES,
     IsTooDeep,
     by_nodes,
@@ -250,7 +249,7 @@ def _at_same_stage(latest: MeshSolution, stage: ContactStage, change: float) -> 
             *_, found = by_nodes(latest.contact, half_width, _COARSE_SIZES)
             return found
         start = latest.state.states, latest.lagged, latest.steps
-        found = solve_on_mesh(latest.contact, latest.mesh, start, BY_NODES.solve, NEGLIGIBLE)
+        found = solve_on_mesh(latest.contact, latest.mesh, start, solve_nodes, NEGLIGIBLE)
     else:
         found = _with_moved_ends(latest, stage)
     return replace(found, error=latest.error, make_secondary_error=latest.make_secondary_error)

@@ -1,7 +1,7 @@
 """The discrete contact problem: which nodes touch, stick or slip, and where the zones end."""
 
 from rollnip.contact.complementarity import Inequalities, interior_point
-from rollnip.contact.coupled import CoupledActiveSet, next_states, stick_and_slip
+from rollnip.contact.coupled import active_set, next_states, stick_and_slip
 from rollnip.contact.edge_exponents import left_out_of_creep, left_out_of_tractions
 from rollnip.contact.ends import ZoneEnd
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
@@ -18,7 +18,7 @@ from rollnip.contact.mesh import (
     subdivided,
     uncrowded,
 )
-from rollnip.contact.methods import Safeguarded
+from rollnip.contact.methods import solve_nodes
 from rollnip.contact.missing_slip import TurningSlip, slip_by_turning, slipping_at_edges
 from rollnip.contact.problem import (
     ContactProblem,
@@ -34,16 +34,15 @@ __all__ = [
     "ContactState",
     "ContactZone",
     "Control",
-    "CoupledActiveSet",
     "Crowding",
     "Inequalities",
     "Layout",
-    "Safeguarded",
     "State",
     "States",
     "Subdivision",
     "TurningSlip",
     "ZoneEnd",
+    "active_set",
     "carry",
     "contact_intervals",
     "contact_zones",
@@ -58,6 +57,7 @@ __all__ = [
     "next_states",
     "slip_by_turning",
     "slipping_at_edges",
+    "solve_nodes",
     "stick_and_slip",
     "subdivided",
     "uncrowded",

@@ -6,7 +6,7 @@ linear equations for all unknowns together; the signs of their solution show whi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import lapack
@@ -27,6 +27,9 @@ from rollnip.contact.problem import (
 )
 
 _TINY = np.finfo(float).tiny
+# Conditions violated by less than this, relative to the largest gap, pressure or creep, count as
+# met: it is above what linear systems leave.
+_ROUNDING = 1e-11
 
 
 def solve_states(problem: ContactProblem, states: States) -> ContactState:
@@ -167,44 +170,31 @@ def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
     return states[np.where(np.abs(before - new) < np.abs(after - new), before, after)]
 
 
-@dataclass(frozen=True, slots=True)
-class CoupledActiveSet:
-    """Active-set solver of a contact problem for all unknowns at once.
+def active_set(
+    problem: ContactProblem,
+    states: States,
+    *,
+    most_steps: int = MOST_ITERATIONS,
+    holds_contact: bool = False,
+) -> ContactState:
+    """Solve for all unknowns at once, from ``states`` on, until a solution implies its own states.
 
-    Parameters
-    ----------
-    max_steps :
-        largest number of linear systems to solve.
-    rounding :
-        conditions violated by less than this, relative to the largest gap, pressure or creep,
-        count as met.
-    holds_contact :
-        whether only stick and slip are sought. Then pressures may be negative, and surfaces may
-        overlap.
+    ``settled`` is False where that takes more than ``most_steps`` linear systems.
+    ``holds_contact``: whether only stick and slip are sought. Then pressures may be negative, and
+    surfaces may overlap.
     """
-
-    max_steps: int = MOST_ITERATIONS
-    rounding: float = 1e-11
-    holds_contact: bool = False
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Iterate from ``states`` until a solution implies the states that it was solved with.
-
-        ``settled`` is False where that takes more than ``max_steps``.
-
-        """
-        states = _ensure_solvable(problem, states)
-        seen: set[bytes] = set()
-        for step in range(1, self.max_steps + 1):
-            solution = solve_states(problem, states)
-            wanted = next_states(problem, solution, self.rounding, holds_contact=self.holds_contact)
-            if wanted.tobytes() == states.tobytes():
-                return replace(solution, steps=step)
-            seen.add(states.tobytes())
-            if wanted.tobytes() in seen:
-                wanted = _gentler(states, wanted, solution)
-            states = _ensure_solvable(problem, wanted)
-        return replace(solution, steps=self.max_steps, settled=False)
+    states = _ensure_solvable(problem, states)
+    seen: set[bytes] = set()
+    for step in range(1, most_steps + 1):
+        solution = solve_states(problem, states)
+        wanted = next_states(problem, solution, _ROUNDING, holds_contact=holds_contact)
+        if wanted.tobytes() == states.tobytes():
+            return replace(solution, steps=step)
+        seen.add(states.tobytes())
+        if wanted.tobytes() in seen:
+            wanted = _gentler(states, wanted, solution)
+        states = _ensure_solvable(problem, wanted)
+    return replace(solution, steps=most_steps, settled=False)
 
 
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:

@@ -2,67 +2,65 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
 from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import (
-    CoupledActiveSet,
+    active_set,
     next_states,
     right_side,
     solve_states,
     system_matrix,
 )
-from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States
+from rollnip.contact.problem import (
+    FREE,
+    MOST_ITERATIONS,
+    Array,
+    ContactProblem,
+    ContactState,
+    States,
+)
+
+# Largest problem for the interior point: it takes some twenty linear systems, which for larger
+# problems last seconds.
+_MOST_NODES = 160
+# Relative violation of the conditions up to which the states of the interior point are accepted.
+_VIOLATION = 1e-7
 
 
-@dataclass(frozen=True, slots=True)
-class Safeguarded:
-    """The coupled active set, with an interior-point method to fall back on where it cycles.
+def solve_nodes(
+    problem: ContactProblem, states: States, *, most_steps: int = MOST_ITERATIONS
+) -> ContactState:
+    """Return the solution from initial ``states``: by an active set or, where that cycles, inside.
 
-    Parameters
-    ----------
-    fast :
-        the coupled active set, with its limit of steps.
-    rounding :
-        relative violation of the conditions up to which the interior point's states are accepted.
-    most_nodes :
-        largest problem for the interior point; it takes some twenty linear systems, which for
-        larger problems last seconds.
+    ``settled`` tells whether the contact conditions hold at the nodes. ``most_steps``: of the
+    active set.
     """
+    try:
+        solution = active_set(problem, states, most_steps=most_steps)
+    except np.linalg.LinAlgError:
+        solution = _unsolved(problem)
+    if solution.settled or problem.x.size > _MOST_NODES:
+        return solution
+    try:
+        slow = _by_interior_point(problem)
+    except np.linalg.LinAlgError:
+        slow = _unsolved(problem)
+    is_better = slow.settled or not np.any(solution.pressure)
+    return replace(slow if is_better else solution, steps=solution.steps + slow.steps)
 
-    fast: CoupledActiveSet = field(default_factory=CoupledActiveSet)
-    rounding: float = 1e-7
-    most_nodes: int = 160
 
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution from initial ``states``.
-
-        ``settled`` tells whether the contact conditions hold at the nodes.
-        """
-        try:
-            solution = self.fast.solve(problem, states)
-        except np.linalg.LinAlgError:
-            solution = _unsolved(problem)
-        if solution.settled or problem.x.size > self.most_nodes:
-            return solution
-        try:
-            slow = self._by_interior_point(problem)
-        except np.linalg.LinAlgError:
-            slow = _unsolved(problem)
-        is_better = slow.settled or not np.any(solution.pressure)
-        return replace(slow if is_better else solution, steps=solution.steps + slow.steps)
-
-    def _by_interior_point(self, problem: ContactProblem) -> ContactState:
-        """Return the interior-point solution, settled if its own solution implies its states."""
-        found = interior_point(*inequalities_of(problem))
-        states = found.touches.astype(np.int8)  # 1: STICK
-        if found.states.size:
-            states = np.where(found.touches, found.states, np.int8(FREE))
-        solution = solve_states(problem, states)
-        settled = np.array_equal(next_states(problem, solution, self.rounding), states)
-        return replace(solution, steps=found.steps + 1, settled=settled)
+def _by_interior_point(problem: ContactProblem) -> ContactState:
+    """Return the interior-point solution, settled if its own solution implies its states."""
+    found = interior_point(*inequalities_of(problem))
+    states = found.touches.astype(np.int8)  # 1: STICK
+    if found.states.size:
+        states = np.where(found.touches, found.states, np.int8(FREE))
+    solution = solve_states(problem, states)
+    settled = np.array_equal(next_states(problem, solution, _VIOLATION), states)
+    return replace(solution, steps=found.steps + 1, settled=settled)
 
 
 def _unsolved(problem: ContactProblem) -> ContactState:

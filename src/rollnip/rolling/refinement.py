@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rollnip.contact import NEAR_ENOUGH, Layout, Safeguarded
+from rollnip.contact import NEAR_ENOUGH, Layout, solve_nodes
 from rollnip.rolling.assemble import initial_terms
 from rollnip.rolling.changes import NEGLIGIBLE
 from rollnip.rolling.free_ends import is_verified, with_free_ends
@@ -19,8 +19,6 @@ from rollnip.rolling.placing import MOST_MESHES
 from rollnip.rolling.rolling_contact import RollingContact
 from rollnip.rolling.zone_solver import are_too_many, mesh_around
 
-BY_NODES = Safeguarded()
-"""Solver that seeks the states of a contact problem node by node."""
 SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
 
 
@@ -146,7 +144,7 @@ def _solve_by_nodes(
     if before is not None:
         lagged, steps = before.lagged.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), lagged, steps
-    return solve_on_mesh(contact, mesh, start, BY_NODES.solve, NEGLIGIBLE)
+    return solve_on_mesh(contact, mesh, start, solve_nodes, NEGLIGIBLE)
 
 
 def _zones_are_known(latest: MeshSolution, before: MeshSolution | None) -> bool:

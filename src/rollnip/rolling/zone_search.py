@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 
 from rollnip.contact import (
-    CoupledActiveSet,
     Layout,
     State,
     States,
+    active_set,
     contact_intervals,
     next_states,
     slipping_at_edges,
@@ -29,8 +29,6 @@ from rollnip.rolling.neglected_slip import (
     overlooked_states,
 )
 from rollnip.rolling.zone_solver import SearchState
-
-_STICK_AND_SLIP = CoupledActiveSet(holds_contact=True)
 
 
 def other_zones(search: EndSearch, *, is_placed: bool, is_near: bool) -> Iterator[SearchState]:
@@ -125,7 +123,7 @@ def _between_edges(latest: MeshSolution, wanted: States, edges: Layout) -> Searc
     It holds the contact set, and starts from the states ``wanted``. Return None where the nodes
     keep the states of the solution, or the zones have no layout.
     """
-    found = _STICK_AND_SLIP.solve(latest.problem, wanted)
+    found = active_set(latest.problem, wanted, holds_contact=True)
     if not found.settled or np.array_equal(found.states, latest.state.states):
         return None
     pieces = contact_intervals(edges.zones)

@@ -17,9 +17,9 @@ from rollnip.contact import (
     ContactProblem,
     ContactState,
     Control,
-    Safeguarded,
     State,
     States,
+    solve_nodes,
 )
 from rollnip.contact.coupled import solve_states
 from rollnip.contact.problem import Array, Mask, shear_signs
@@ -121,7 +121,7 @@ class Tang:
                 return replace(solution, pressure=pressure)
 
             states = wanted
-        at_once = Safeguarded().solve(tangential, start)
+        at_once = solve_nodes(tangential, start)
         return replace(at_once, pressure=pressure)
 
 

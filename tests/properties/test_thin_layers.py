@@ -86,23 +86,23 @@ def test_claims_under_thin_soft_tops(number):
 def test_claims_under_other_thin_soft_tops():
     """Nips that no number was set with; other ones for each `population.SEED`.
 
-    Of 200 such nips two were 3.5 claims off. So up to three of 60 may be beyond 3 (four have a
-    chance of one in 300), and none beyond 6; a solution that says that it did not converge claims
+    Of 200 such nips two were 3.5 claims off. So up to two of 36 may be beyond 3 (three have a
+    chance of one in 170), and none beyond 6; a solution that says that it did not converge claims
     nothing, but that may be one in twenty at most.
     """
     drawn = {}
-    for number in numbers(60, 6, 2**31):
+    for number in numbers(36, 6, 2**31):
         with suppress(rn.InvalidInputError):  # pressed harder than any contact carries
             drawn[number] = solved(thin_top(number))
     # Tops that are pressed in by half and more are refused as no nips at all.
     nips = {n: found.nip for n, found in drawn.items() if "pressed in by" not in found.status}
-    assert len(nips) >= 30
+    assert len(nips) >= 18
     judged = {n: nip for n, nip in nips.items() if drawn[n].converged}
     assert len(judged) >= 0.95 * len(nips), sorted(set(nips) - set(judged))
     judged = {n: nip for n, nip in judged.items() if solved(nip, 5e-5).converged}
     assert len(judged) >= 0.85 * len(nips), sorted(set(nips) - set(judged))
     beyond = {n: ratio for n, nip in judged.items() if (ratio := over_claim(nip)) > 3.0}
-    assert len(beyond) <= 3, beyond
+    assert len(beyond) <= 2, beyond
     assert max(beyond.values(), default=0.0) <= 6.0, beyond
 
 

@@ -8,10 +8,10 @@ from sheet_nips import RIGID, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
+from rollnip.contact.problem import shear_signs
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
 from rollnip.sheet.formulation import END_TOLERANCE
-from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneSearch
 from rollnip.sheet.plate.search import PlateSearch
@@ -122,7 +122,7 @@ def test_slip_ends_where_its_creep_first_comes_to_zero():
     """
     solution = rn.solve(random_case(104039).nip, rn.Model(geometry="curved"))
     iterate = solution.refined.iterate
-    signs = SIGNS.take(iterate.state.states_lower)
+    signs = shear_signs(iterate.state.states_lower)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
     back = slips & (signs * iterate.creeps[1] < 0.0)[:-1]
     assert not np.any(back[:-1] & back[1:])  # one node may, at an end between two nodes

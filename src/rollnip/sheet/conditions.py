@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip.contact import ContactState, State
+from rollnip.contact.problem import shear_signs
 from rollnip.nip import Nip
 from rollnip.rolling.check import depth_scale
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def _violation_on(
     bound = friction * np.maximum(state.pressure, 0.0)
     beyond = np.maximum(np.abs(state.shear) - bound, 0.0) * mesh.weights
     carried = _longest_run(np.where(state.states == State.STICK, beyond, 0.0))
-    signs = SIGNS.take(state.states)
+    signs = shear_signs(state.states)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
     wrong = np.where(slips, np.maximum(-signs[:-1] * creep[:-1], 0.0), 0.0)
     allowed = float(np.ptp(mesh.inner)) * creepage

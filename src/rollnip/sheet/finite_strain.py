@@ -32,6 +32,7 @@ from rollnip.rolling import RollingContact, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_slip_works
 from rollnip.sheet.refine import Refined, initial_elements, on_last_mesh, refine
@@ -198,7 +199,7 @@ def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:
 def _sides(iterate: AnyIterate) -> tuple[RollerTractions, RollerTractions]:
     """Return the tractions of the upper and of the lower roller."""
     out: list[RollerTractions] = []
-    for number, (mesh, sign) in enumerate(zip(iterate.problem.meshes, (1.0, -1.0), strict=True)):
+    for number, (mesh, sign) in enumerate(zip(iterate.problem.meshes, SIDE_SIGNS, strict=True)):
         one = iterate.state.side(number)
         out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))
     return out[0], out[1]

@@ -16,6 +16,7 @@ from rollnip._results.records import DeformedSurfaces
 from rollnip.nip import Creepage, Nip
 from rollnip.sheet.bending import mean_tension, spreading_length
 from rollnip.sheet.figures import NAMES, SheetFigures, scales
+from rollnip.sheet.friction import SIDE_SIGNS
 
 Array = NDArray[np.float64]
 
@@ -87,7 +88,7 @@ def wrapped_length(nip: Nip, surfaces: DeformedSurfaces, edges: tuple[float, flo
     for edge, outward in zip(edges, (-1.0, 1.0), strict=True):
         beyond = np.flatnonzero(outward * (x - edge) >= 0.0)[:: int(outward)]
         away = np.abs(x[beyond] - x[beyond[0]])
-        for side, sign in enumerate((1.0, -1.0)):
+        for side, sign in enumerate(SIDE_SIGNS):
             clear = sign * heights[side][beyond]  # surface height, away from the sheet
             slope = (clear[1] - clear[0]) / away[1]
             path = clear[0] - slope * turning * np.expm1(-away / turning)

@@ -25,6 +25,7 @@ from rollnip.model import Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
 from rollnip.rolling.surface_work import loss_inside, moment
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
@@ -99,7 +100,7 @@ def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tu
     """
     rates, out = rates_of(geometry, sum(iterate.state.creepages)), []
     for side, ((lost, reversed_slip), sign) in enumerate(
-        zip(smooth_slip_works(iterate), (1.0, -1.0), strict=True)
+        zip(smooth_slip_works(iterate), SIDE_SIGNS, strict=True)
     ):
         whole, smooth = pulls[side]
         lost += sign * rates[side] * (whole - smooth)

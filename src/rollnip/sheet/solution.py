@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isinf, nan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +29,8 @@ from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.local_deformation import thickness_loss
-from rollnip.sheet.membrane.formulation import traction_slope
 from rollnip.sheet.membrane.lagged_terms import face_levers
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.search import MembraneIterate
 from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
 from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
@@ -41,7 +42,6 @@ from rollnip.sheet.result import (
     inside_zone,
     pull_in_slip,
     slip_share_of,
-    zones_of,
 )
 from rollnip.sheet.tension import FaceLevers
 from rollnip.smooth import SmoothSolution
@@ -252,9 +252,25 @@ class SheetSolution(SmoothSolution):
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 
+    @property
+    def _system(self) -> Any:
+        """The factorised linear system of the solution."""
+        iterate = self.refined.iterate
+        return FactorisedMembrane.of(iterate.problem, iterate.state.both_states)
+
     def _traction_slope(self) -> float:
-        """Return the derivative of both tractions by the creepage, see `traction_slope` [N/mm]."""
-        return traction_slope(self.refined.iterate)
+        """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
+
+        It turns an error of the creepage at a given traction into one of the traction at a given
+        creepage, as without a sheet.
+        """
+        system, lagged, tractions = self._system, self.refined.iterate.lagged, []
+        for creepage in (0.0, 1.0):  # the tractions are linear in it
+            nip = replace(self.nip, tangential=Creepage(creepage))
+            one = replace(system, problem=replace(system.problem, nip=nip))
+            shear = one.solved(lagged).side(1).shear
+            tractions.append(float(system.problem.meshes[1].weights @ shear))
+        return abs(tractions[1] - tractions[0])
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, at least the uncertainty that the model's own order leaves."""
@@ -286,7 +302,7 @@ class SheetSolution(SmoothSolution):
         return self._zones(0)
 
     def _zones(self, side: int) -> tuple[Zone, ...]:
-        return zones_of(self.refined.iterate.zones.sides[side])
+        return Zone.of(self.refined.iterate.zones.sides[side].zones)
 
     @property
     def _state(self) -> MembraneState:

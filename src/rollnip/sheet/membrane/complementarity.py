@@ -12,6 +12,7 @@ from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.complementarity import (
     LEAST_PRESSURE,
     indentation,
+    next_slip,
     with_stick_between_slips,
 )
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
@@ -86,23 +87,11 @@ def updated_states(
 ) -> States:
     """Return the states of both interfaces that follow from creep and shear, (2, n).
 
-    Free nodes and nodes under tension keep their states. A node also keeps its state while its
-    shear is within ``slack`` times the bound at the peak pressure.
+    ``slack``: pressure that counts as rounding, over the highest one; see `next_slip`.
     """
-    states = state.both_states
     little = slack * float(np.abs(state.pressure).max())
-    kept = (states[0] != State.FREE) & (state.pressure >= -little)
-    out = states.copy()
-    for side, friction in enumerate(problem.frictions):
-        sought = state.shears[side] - creeps[side] / problem.own_creep[side]
-        bound = friction * np.maximum(state.pressure, 0.0)
-        room = friction * little
-        plus = sought > bound + np.where(states[side] == State.SLIP_PLUS, -room, room)
-        minus = sought < -bound - np.where(states[side] == State.SLIP_MINUS, -room, room)
-        out[side, kept] = State.STICK
-        out[side, kept & plus] = State.SLIP_PLUS
-        out[side, kept & minus] = State.SLIP_MINUS
-    return out
+    sides = enumerate(zip(creeps, problem.own_creep, problem.frictions, strict=True))
+    return np.stack([next_slip(state.side(side), *one, little) for side, one in sides])
 
 
 def _inequalities(

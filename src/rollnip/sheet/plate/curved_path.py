@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.sheet.bending import COUNTED, bending_length
-from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.friction import SIDE_SIGNS
+from rollnip.sheet.plate.interface import values_at
 from rollnip.sheet.plate.loads import PiecewiseLoads
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ def curved_load(
     sheet, plate = problem.sheet, problem.plate
     sheared = np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
-        sheared += SIGNS[side] * values_at(mesh, state.shear[side], x)
+        sheared += SIDE_SIGNS[side] * values_at(mesh, state.shear[side], x)
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     lines = np.stack([slope * left_out, -slope * (sheared - rise)], axis=1)
     return CurvedLoad.at_nodes(PiecewiseLoads.of_lines(x, lines, sheet, plate))

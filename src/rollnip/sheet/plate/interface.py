@@ -17,10 +17,9 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import Displacements, SecondFields
 from rollnip.rolling.mesh_solution import peaks_alike
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.friction import SIDE_SIGNS
 
 Array = NDArray[np.float64]
-SIGNS = (1.0, -1.0)
-"""Signs of the shear on the upper and lower roller, and of the creep of its surface."""
 _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
 """Matrix from the values of a cubic at 0, 1, 2 and 3 to its coefficients, constant first."""
 
@@ -88,7 +87,7 @@ def own_displacements(mesh: Mesh, side: int, pressure: Array, shear: Array) -> D
     ``shear`` is q_u on the upper roller; on the lower one it is q_l, which acts as -q_l.
     """
     xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
-    t = SIGNS[side] * shear
+    t = SIDE_SIGNS[side] * shear
     four = np.zeros((4, mesh.inner.size + 1))
     four[2 * side] = xz @ pressure + xx @ t
     four[2 * side + 1] = zz @ pressure - xz @ t
@@ -100,10 +99,7 @@ def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
     out = u_x[1:] - u_x[:-1]
     hoop = mesh.kernels.hoops[side]
     if hoop:
-        means = mesh.fine.means
-        assert means is not None
-        dx = np.diff(mesh.fine.nodes[1:])[:, None]
-        out = out - hoop * (mesh.sums(dx * means) @ u_z)
+        out = out - hoop * mesh.fine.integrated(u_z)
     return np.asarray(out)
 
 

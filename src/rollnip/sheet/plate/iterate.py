@@ -15,10 +15,10 @@ from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import SheetIterate
 from rollnip.sheet.lagged_terms import interpolated
 from rollnip.sheet.plate.curved_path import places_along
-from rollnip.sheet.plate.interface import SIGNS
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
@@ -94,7 +94,7 @@ def gaps_at(
     for side, (here, mesh) in enumerate(zip(places, problem.meshes, strict=True)):
         u = _displacements_at(mesh, state, model[0], side, here)
         gap = surface_depths(here, problem.nip, model[1], u)[side] + indented[side]
-        gap -= SIGNS[side] * heights[side]
+        gap -= SIDE_SIGNS[side] * heights[side]
         if curved is not None:
             gap -= 0.25 * problem.sheet.thickness * rotations[side] ** 2
         out.append(np.asarray(gap - (state.approach if side == 0 else 0.0)))
@@ -108,7 +108,7 @@ def _displacements_at(
     four, surface = np.zeros((4, x.size)), (kernels.upper, kernels.lower)[side]
     if surface is None:
         return Displacements(four)
-    tractions = state.pressure[side], SIGNS[side] * state.shear[side]
+    tractions = state.pressure[side], SIDE_SIGNS[side] * state.shear[side]
     acting = np.stack([mesh.acting(t) for t in tractions], axis=1)
     xx, zz, xz = displacement_under(surface.together, x, mesh.fine.nodes, acting)
     four[2 * side] = xz[:, 0] + xx[:, 1]

@@ -14,6 +14,7 @@ from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.surface_work import mean_shear
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.lagged_terms import (
     creep_in_stick,
     has_no_terms,
@@ -30,7 +31,7 @@ from rollnip.sheet.plate.curved_path import (
     places_along,
     tension_left_out,
 )
-from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
+from rollnip.sheet.plate.interface import curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.tension import FaceLevers, KnownTension
 
@@ -233,7 +234,7 @@ def _offsets(
     hoops = np.array(mesh.kernels.hoops)[:, None]
     excess = stretch_excess(x, nip, geometry, mesh.finer(u))[side]
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)[side]
-    sign, half = SIGNS[side], 0.5 * state.creepage
+    sign, half = SIDE_SIGNS[side], 0.5 * state.creepage
     rate = sheet_rate(*state.creepages)
     strained = (rate - 1.0) * problem.creep_by_sheet(state, known, side, flat)
     return np.asarray(sign * mesh.sums((1.0 + sign * half) * excess - linear) + strained)
@@ -241,7 +242,7 @@ def _offsets(
 
 def _lean(problem: PlateProblem, state: PlateState, side: int, u: Displacements) -> float:
     """Return int q slope dx of one surface [N/mm]."""
-    mesh, sign = problem.meshes[side], SIGNS[side]
+    mesh, sign = problem.meshes[side], SIDE_SIGNS[side]
     shear = state.shear[side]
     levers = float(mesh.weights @ (shear * mesh.inner))
     inward = (u.z_upper, u.z_lower)[side]

@@ -13,16 +13,16 @@ from rollnip._results.profiles import fine_points, surface_strain
 from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
-from rollnip.nip import Creepage
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, MeshSolution, RollingContact, stretch_excess
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
-from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.plate.interface import values_at
 from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.lagged_terms import face_levers
 from rollnip.sheet.plate.linear_system import FactorisedPlate
@@ -76,15 +76,9 @@ class PlateSolution(SheetSolution):
             out["peak_pressure"] = max(out["peak_pressure"], left)
         return out
 
-    def _traction_slope(self) -> float:
-        iterate, tractions = self._iterate, []
-        nips = (replace(self.nip, tangential=Creepage(one)) for one in (0.0, 1.0))
-        without, with_it = (replace(iterate.problem, nip=nip) for nip in nips)
-        system = FactorisedPlate.of(without, iterate.state.states)
-        for one in (system, replace(system, problem=with_it)):  # the tractions are linear in it
-            shear = one.solved(iterate.lagged).shear[1]
-            tractions.append(float(iterate.problem.meshes[1].weights @ shear))
-        return abs(tractions[1] - tractions[0])
+    @property
+    def _system(self) -> Any:
+        return FactorisedPlate.of(self._iterate.problem, self._iterate.state.states)
 
     @cached_property
     def _path(self) -> tuple[float, float]:
@@ -166,7 +160,7 @@ class PlateSolution(SheetSolution):
         )
         for side in (0, 1):
             one, mesh = self._of_side(side), iterate.problem.meshes[side]
-            acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
+            acting = np.stack([one.pressure, one.shear * SIDE_SIGNS[side]], axis=1)
             made = pair_displacements(self.final.contact.kernels, x, one.nodes, acting)
             xx, zz, xz = made[3 * side : 3 * side + 3]
             rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
@@ -202,8 +196,8 @@ class PlateSolution(SheetSolution):
         face = 0.5 * (strain[1:] + strain[:-1])
         curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
         turned = direction_of(problem.path_at(state, x, curved)[1], curved)
-        face -= SIGNS[side] * half * np.diff(turned) / dx
-        rate = state.creepages[side] + SIGNS[side] * (stretch - face)
+        face -= SIDE_SIGNS[side] * half * np.diff(turned) / dx
+        rate = state.creepages[side] + SIDE_SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
         for zone in iterate.zones.sides[side].zones:

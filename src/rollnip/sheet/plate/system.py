@@ -27,11 +27,10 @@ from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.friction import SIDE_SIGNS, frictions_of
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.curved_path import CurvedLoad
 from rollnip.sheet.plate.interface import (
-    SIGNS,
     curvatures,
     own_displacements,
     stretch_by,
@@ -184,10 +183,10 @@ class PlateProblem:
             creep = lagged.offsets[side]
             if lagged.curved is not None:
                 height, turned = lagged.curved.deflection_at(mesh.nodes[1:])
-                gap = gap - SIGNS[side] * height[:-1]
+                gap = gap - SIDE_SIGNS[side] * height[:-1]
                 creep = creep + half * np.diff(turned)
             out.append(gap + 0.5 * sheet.stretch_by_pressure * known.at(mesh.inner))
-            stretch = SIGNS[side] * sheet.stretch_by_tension * known.over(mesh.nodes[1:])
+            stretch = SIDE_SIGNS[side] * sheet.stretch_by_tension * known.over(mesh.nodes[1:])
             out.append(creep - stretch)
         return np.concatenate(out)
 
@@ -198,7 +197,7 @@ class PlateProblem:
         made = self.parts(self.matrix @ state.tractions + self.constant_terms(lagged))
         for side, mesh in enumerate(self.meshes):
             moved = state.height + state.rotation * mesh.inner
-            made[2 * side] -= SIGNS[side] * moved
+            made[2 * side] -= SIDE_SIGNS[side] * moved
             made[2 * side + 1] += state.creepages[side] * mesh.dx
         made[0] -= state.approach
         return (made[0], made[1]), (made[2], made[3])
@@ -244,8 +243,8 @@ class PlateProblem:
         for side, one in enumerate(self.loads):
             both = one.of(np.stack([state.pressure[side], state.shear[side]], axis=1))
             made = both.deflection(x, both.tail_moments_at(x))
-            height -= SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
-            turned -= SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
+            height -= SIDE_SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
+            turned -= SIDE_SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
         if curved is not None:
             lifted, bent = curved.deflection_at(x)
             height, turned = height + lifted, turned + bent
@@ -273,7 +272,7 @@ class PlateProblem:
             far = is_lower if side == 0 else ~is_lower
             both = one.of(np.stack([state.pressure[side], self.arcs[side] * state.shear[side]], 1))
             indented, _, warped = both.face_displacements(x, far, both.tail_moments_at(x))
-            out += indented[:, 0] - SIGNS[side] * warped[:, 1]
+            out += indented[:, 0] - SIDE_SIGNS[side] * warped[:, 1]
         return np.split(out, ends)
 
     def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
@@ -295,7 +294,8 @@ class PlateProblem:
         rows = slice(self.starts[2 * side + 1], self.starts[2 * side + 2])
         roller = stretch_by(mesh, side, flat.four[2 * side], flat.four[2 * side + 1])
         pulled = sheet.stretch_by_tension * known.over(mesh.nodes[1:])
-        return np.asarray(self.matrix[rows] @ state.tractions - SIGNS[side] * (roller + pulled))
+        by_others = SIDE_SIGNS[side] * (roller + pulled)
+        return np.asarray(self.matrix[rows] @ state.tractions - by_others)
 
     def strain_over(self, state: PlateState, known: KnownTension, side: int) -> Array:
         """Return int e dx of the sheet's middle over the intervals of one interface, (n,) [mm]."""
@@ -305,7 +305,7 @@ class PlateProblem:
         tension = known.over(x)
         for number, one in enumerate(self.loads):
             pulled = one.of(self.arcs[number] * state.shear[number]).tail_moments_at(x)
-            tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
+            tension += SIDE_SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
             pressed -= np.diff(one.forces_beyond(x, state.pressure[number]))
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
-from rollnip.model import SIMPLER, Geometry, Model
+from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import MeshSolution, RollingContact
@@ -27,7 +26,7 @@ from rollnip.sheet.checks import (
 )
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
-from rollnip.sheet.one_geometry import solve_in_geometry
+from rollnip.sheet.one_geometry import solve_until_settled
 from rollnip.sheet.plate.solve import membrane_limit, solve_plate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.solution import SheetSolution
@@ -126,20 +125,14 @@ def _solve_with_fallback(
 ) -> tuple[RollingContact, Refined[MembraneIterate], tuple[Reservation, ...]]:
     """Return the contact solved, its solution, and reservations on its model.
 
-    Where the asked geometry has no settled solution, simpler ones are tried in turn.
+    Where no geometry has a settled solution, it is that in the simplest one.
     """
-    unsolved: list[Geometry] = []
-    while True:
-        contact, refined = solve_in_geometry(MembraneFormulation, nip, model, cache)
-        simpler = SIMPLER.get(model.geometry)
-        if refined is not None and (simpler is None or refined.iterate.settled):
-            reservations = simpler_geometry_reservations(unsolved, model.geometry)
-            return contact, refined, reservations
-        if simpler is None:
-            require_torque(nip, 1.0)
-            raise ConvergenceError(_none_found(nip))
-        unsolved.append(model.geometry)
-        model = replace(model, geometry=simpler)
+    *before, (contact, refined) = solve_until_settled(MembraneFormulation, nip, model, cache)
+    if refined is None:
+        require_torque(nip, 1.0)
+        raise ConvergenceError(_none_found(nip))
+    unsolved = [one.contact.geometry for one in before]
+    return contact, refined, simpler_geometry_reservations(unsolved, contact.geometry)
 
 
 def _none_found(nip: Nip) -> str:

@@ -21,7 +21,6 @@ from rollnip.rolling import Displacements, MeshSolution, Powers, claims
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.kinematics import stretch_excess, surface_depths
 from rollnip.rolling.power_balance import rates_of
-from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.checks import not_prescribed
 from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
@@ -32,7 +31,7 @@ from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.lagged_terms import face_levers
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.search import MembraneIterate
-from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
+from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
@@ -364,10 +363,7 @@ class SheetSolution(SmoothSolution):
         """Places in and outside the nip, and the displacements of both surfaces there."""
         x, kernels = fine_points(self.final), self.final.contact.kernels
         mesh, state = self.refined.iterate.problem.mesh, self._state
-        acting = np.stack(
-            [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
-        )
-        u = membrane_displacements(pair_displacements(kernels, x, mesh.fine.nodes, acting))
+        u = mesh.linear_displacements_at(x, state)
         if kernels.is_linear:
             return x, u
         held = kernels.held or mesh.second_fields(state)

@@ -80,7 +80,7 @@ class MembraneFormulation:
 
     def overlap(self, iterate: MembraneIterate) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
-        return overlap(iterate, self.contact.kernels, self.contact.geometry)
+        return overlap(iterate, self.contact.geometry)
 
     def with_corrections(self, iterate: MembraneIterate) -> MembraneIterate:
         """Return a solution with lagged terms from the corrections of the contact."""

@@ -99,7 +99,7 @@ class PlateFormulation:
 
     def overlap(self, iterate: PlateIterate) -> float:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
-        return overlap(iterate, self.contact.kernels, self.contact.geometry)
+        return overlap(iterate, self.contact.geometry)
 
     def with_corrections(self, iterate: PlateIterate) -> PlateIterate:
         """Return a solution with lagged terms from the corrections of the contact."""

@@ -17,7 +17,6 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import Displacements, SecondFields
 from rollnip.rolling.mesh_solution import peaks_alike
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.friction import SIDE_SIGNS
 
 Array = NDArray[np.float64]
 _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
@@ -79,19 +78,6 @@ def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> Interf
         kernels=alone,
         held=None,
     )
-
-
-def own_displacements(mesh: Mesh, side: int, pressure: Array, shear: Array) -> Displacements:
-    """Return the linear displacements of one roller at nodes[1:]; those of the other one are zero.
-
-    ``shear`` is q_u on the upper roller; on the lower one it is q_l, which acts as -q_l.
-    """
-    xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
-    t = SIDE_SIGNS[side] * shear
-    four = np.zeros((4, mesh.inner.size + 1))
-    four[2 * side] = xz @ pressure + xx @ t
-    four[2 * side + 1] = zz @ pressure - xz @ t
-    return Displacements(four)
 
 
 def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:

@@ -31,7 +31,7 @@ from rollnip.sheet.plate.curved_path import (
     places_along,
     tension_left_out,
 )
-from rollnip.sheet.plate.interface import curvatures, own_displacements, path_ratio
+from rollnip.sheet.plate.interface import curvatures, path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.tension import FaceLevers, KnownTension
 
@@ -73,7 +73,7 @@ def lagged_terms(
     bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
         mesh = problem.meshes[side]
-        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
+        flat = mesh.linear_displacements(state.side(side))
         u = mesh.with_second(flat, state.side(side))
         clearance.append(_clearance(problem, geometry, side, flat, u))
         offsets.append(_offsets(problem, geometry, (state, known), side, (flat, u)))

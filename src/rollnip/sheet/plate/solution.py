@@ -17,7 +17,6 @@ from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, MeshSolution, RollingContact, stretch_excess
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
-from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.membrane.system import MembraneState
@@ -154,20 +153,10 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        iterate, four = self._iterate, []
-        x = np.unique(
-            np.concatenate([fine_points(self.final), fine_points(self._lower_mesh_solution)])
-        )
-        for side in (0, 1):
-            one, mesh = self._of_side(side), iterate.problem.meshes[side]
-            acting = np.stack([one.pressure, one.shear * SIDE_SIGNS[side]], axis=1)
-            made = pair_displacements(self.final.contact.kernels, x, one.nodes, acting)
-            xx, zz, xz = made[3 * side : 3 * side + 3]
-            rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
-            if not mesh.kernels.is_linear:
-                rows += mesh.second(iterate.state.side(side), x).four[2 * side : 2 * side + 2]
-            four.append(rows)
-        return x, Displacements(np.concatenate(four))
+        iterate = self._iterate
+        x = np.unique(np.concatenate([fine_points(self._of_side(side)) for side in (0, 1)]))
+        upper, lower = (iterate.problem.displacements_at(iterate.state, side, x) for side in (0, 1))
+        return x, upper + lower
 
     @property
     def _levers(self) -> tuple[FaceLevers, FaceLevers] | None:

@@ -32,7 +32,6 @@ from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.curved_path import CurvedLoad
 from rollnip.sheet.plate.interface import (
     curvatures,
-    own_displacements,
     stretch_by,
     values_at,
 )
@@ -222,9 +221,15 @@ class PlateProblem:
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
         """Return the displacements of one roller at nodes[1:] of its interface."""
-        mesh = self.meshes[side]
-        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
-        return mesh.with_second(flat, state.side(side))
+        return self.meshes[side].displacements(state.side(side))
+
+    def displacements_at(self, state: PlateState, side: int, x: Array) -> Displacements:
+        """Return the displacements of one roller at given places."""
+        mesh, own = self.meshes[side], state.side(side)
+        if (self.nip.upper, self.nip.lower)[side].is_rigid:
+            return Displacements(np.zeros((4, x.size)))
+        flat = mesh.linear_displacements_at(x, own)
+        return flat if mesh.kernels.is_linear else flat + mesh.second(own, x)
 
     def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""

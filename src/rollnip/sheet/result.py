@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip._results.records import Zone
 from rollnip._sealed import Sealed
-from rollnip.contact import ContactZone, State
+from rollnip.contact import State
 from rollnip.rollers import Side
 from rollnip.rolling import MeshSolution
 
@@ -148,8 +148,3 @@ def pull_in_slip(one: MeshSolution) -> float:
     """Return int |q| dx over the slip zones of an interface [N/mm]."""
     slips = one.state.states > State.STICK
     return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))
-
-
-def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
-    """Return which places lie in a zone."""
-    return np.asarray((x >= zone.start) & (x <= zone.stop))

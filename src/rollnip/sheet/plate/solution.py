@@ -9,16 +9,13 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._results.profiles import fine_points, surface_strain
-from rollnip.contact import ContactProblem, Control, State
-from rollnip.interior import SurfaceTractions
+from rollnip._results.profiles import fine_points
+from rollnip.contact import ContactProblem, Control
 from rollnip.model import FINITE
-from rollnip.rollers import SIDES
-from rollnip.rolling import Displacements, MeshSolution, RollingContact, stretch_excess
+from rollnip.rolling import Displacements, MeshSolution, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
 from rollnip.sheet.plate.interface import values_at
@@ -26,7 +23,6 @@ from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.lagged_terms import face_levers
 from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
-from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.tension import FaceLevers
 
@@ -91,20 +87,6 @@ class PlateSolution(SheetSolution):
             curvature = max(curvature, float(np.max(bent, initial=0.0)))
         return slope, curvature
 
-    def _sheet_profiles(self) -> SheetProfiles:
-        x, _ = self._points
-        iterate = self._iterate
-        lower = self._lower_mesh_solution
-        return SheetProfiles(
-            x,
-            self._on_lower(x, lower.shear),
-            self._tension(x),
-            iterate.problem.strain_at(iterate.state, iterate.lagged.known, x),
-            self._slip(1),
-            self._on_lower(x, lower.pressure),
-            self._height,
-        )
-
     @property
     def _state(self) -> MembraneState:
         return cast(MembraneState, self.final.state)
@@ -122,23 +104,16 @@ class PlateSolution(SheetSolution):
     def _lower_mesh_solution(self) -> MeshSolution:
         return lower_mesh_solution(self._plate_refined, self.final)
 
-    def _tractions_on(self, roller: str) -> SurfaceTractions:
-        one = self._of_side(SIDES.index("upper" if roller == "upper" else "lower"))
-        sign = 1.0 if roller == "upper" else -1.0
-        return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
-
     def _of_side(self, side: int) -> MeshSolution:
         return self.final if side == 0 else self._lower_mesh_solution
-
-    def _on_lower(self, x: Array, traction: Array) -> Array:
-        return np.interp(x, self._lower_mesh_solution.x, traction, left=0.0, right=0.0)
-
-    def _strain(self, x: Array, side: int) -> Array:
-        return surface_strain(x, self._of_side(side), side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
         iterate = self._iterate
         return iterate.problem.tension_at(iterate.state, iterate.lagged.known, x)
+
+    def _strain_of_sheet(self, x: Array) -> Array:
+        iterate = self._iterate
+        return iterate.problem.strain_at(iterate.state, iterate.lagged.known, x)
 
     @cached_property
     def _height(self) -> Array:
@@ -173,28 +148,10 @@ class PlateSolution(SheetSolution):
         first, second = (mesh.dx[:-1] for mesh in iterate.problem.meshes)
         return upper[:-1] / first, lower[:-1] / second
 
-    def _slip(self, side: int) -> Array | None:
-        speed = self.nip.speed
-        if speed is None:
-            return None
-        x, u = self._points
-        iterate = self._iterate
-        dx, problem, state = np.diff(x), iterate.problem, iterate.state
-        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
-        strain = problem.strain_at(state, iterate.lagged.known, x)
-        face = 0.5 * (strain[1:] + strain[:-1])
-        curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
-        turned = direction_of(problem.path_at(state, x, curved)[1], curved)
-        face -= SIDE_SIGNS[side] * half * np.diff(turned) / dx
-        rate = state.creepages[side] + SIDE_SIGNS[side] * (stretch - face)
-        out = np.full(x.size, np.nan)
-        middle = 0.5 * (x[1:] + x[:-1])
-        for zone in iterate.zones.sides[side].zones:
-            within = inside_zone(x, zone)
-            out[within] = 0.0
-            if zone.state != State.STICK:
-                out[within] = -speed * np.interp(x[within], middle, rate)
-        return out
+    def _bent(self, x: Array) -> Array:
+        iterate, curved = self._iterate, self._iterate.lagged.curved
+        turned = direction_of(iterate.problem.path_at(iterate.state, x, curved)[1], curved)
+        return np.asarray(0.5 * iterate.problem.sheet.thickness * np.diff(turned) / np.diff(x))
 
 
 def plate_mesh_solution(contact: RollingContact, refined: Refined[PlateIterate]) -> MeshSolution:

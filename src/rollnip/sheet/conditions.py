@@ -13,23 +13,24 @@ from rollnip.contact.problem import shear_signs
 from rollnip.nip import Nip
 from rollnip.rolling.check import depth_scale
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.figures import scale_of_creepages
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 
 OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
 """Distances beyond an edge at which overlap is checked, over the width."""
-_OF_SLOPE = 0.05  # of the nip's slope: least creepage against which slip is measured
 
 
 def violation(iterate: AnyIterate) -> float:
     """Return the residual of the friction conditions, relative; the larger of both interfaces.
 
-    Slip is measured against the creepage, or a twentieth of the nip's slope if that is larger.
+    Slip is measured against the larger of both creepages, see `scale_of_creepages`: those of geared
+    rollers may be opposite, and their sum far smaller.
     """
     problem, state = iterate.problem, iterate.state
     slope = 0.5 * iterate.zones.width * problem.nip.curvature
-    scale = max(_OF_SLOPE * slope, abs(sum(state.creepages)))
+    scale = scale_of_creepages(state.creepages, slope)
     sides = zip(problem.meshes, iterate.creeps, problem.frictions, strict=True)
     return largest(
         *(

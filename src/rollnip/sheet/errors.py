@@ -10,6 +10,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rollers import SIDES
 from rollnip.rolling.estimates import edge_within_memory
@@ -95,11 +96,11 @@ def raised_by_power_errors(
     values = errors.values.copy()
     for number, (side, (_, reversed_slip)) in enumerate(zip(SIDES, works, strict=True)):
         for name, least in (
-            ("friction", max(reversed_slip, slip[number])),
+            ("friction", largest(reversed_slip, slip[number])),
             ("pull", off[number]),
         ):
             at = NAMES.index(f"{name}_{side}")
-            values[at] = max(values[at], least)
+            values[at] = largest(values[at], least)
     return SheetFigures(values)
 
 

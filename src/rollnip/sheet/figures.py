@@ -9,6 +9,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
@@ -114,6 +115,11 @@ def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
     return worst if np.isfinite(worst) else inf
 
 
+def scale_of_creepages(creepages: Sequence[float], slope: float) -> float:
+    """Return the larger size of both creepages against the sheet; see `scale_of_creepage`."""
+    return scale_of_creepage(largest(*map(abs, creepages)), slope)
+
+
 def scales(nip: Nip, figures: SheetFigures) -> Array:
     """Return the scales to which errors are relative, (20,).
 
@@ -127,7 +133,7 @@ def scales(nip: Nip, figures: SheetFigures) -> Array:
     viscous = [roller.is_viscoelastic for roller in (nip.upper, nip.lower)]
     out = values.copy()
     out[2] = scale_of_creepage(values[2], slope)
-    out[5:7] = scale_of_creepage(max(values[5], values[6]), slope)
+    out[5:7] = scale_of_creepages(values[5:7].tolist(), slope)
     out[7:9] = np.maximum(values[7:9], load * carried)
     out[9:11] = max(values[9], values[10], load * float(carried.max()))
     out[11:13] = np.maximum(values[11:13], work * carried)

@@ -14,6 +14,7 @@ from typing import Generic
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.all_orders.acceleration import (
     AndersonMixer,
     BestSolution,
@@ -213,10 +214,10 @@ def _edges(iterate: AnyIterate) -> tuple[float, float]:
 
 def _largest_strain(iterate: AnyIterate) -> float:
     """Return the largest surface strain in either contact, averaged over an element."""
-    problem, state, most = iterate.problem, iterate.state, 0.0
+    problem, state, parts = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
         x, u = mesh.fine.nodes[1:], mesh.finer(problem.displacements(state, side))
         strains = np.abs(stretch_excess(x, problem.nip, "finite", u)[side] / np.diff(x))
         touching = mesh.acting(state.side(side).pressure) > 0.0
-        most = max(most, float(strains[touching].max(initial=0.0)))
-    return most
+        parts.append(float(strains[touching].max(initial=0.0)))
+    return largest(*parts)

@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, ContactState
 from rollnip.rolling import MeshSolution, RollingContact
@@ -209,13 +210,13 @@ def _excess(
     formulation: Formulation[IterateT], here: SizeOfMesh, errors: tuple[SheetFigures, ...]
 ) -> float:
     """Return the largest error over its allowed value, of the figures with a tolerance."""
-    contact, most = formulation.contact, 0.0
+    contact, parts = formulation.contact, []
     allowances = formulation.peak_tolerances
     for figures, error, allowed in zip(here.figures, errors, allowances, strict=True):
         values = error.values.copy()
         values[_PEAK] *= contact.tolerance / allowed
-        most = max(most, ratio(contact.nip, figures, SheetFigures(values)))
-    return most / contact.tolerance
+        parts.append(ratio(contact.nip, figures, SheetFigures(values)))
+    return max(parts) / contact.tolerance
 
 
 def _with_same_zones(
@@ -264,7 +265,7 @@ def _with_outside_check(
     formulation: Formulation[IterateT], refined: Refined[IterateT]
 ) -> Refined[IterateT]:
     """Return a solution whose residual and errors include the check outside the contact."""
-    left = max(refined.residual, formulation.overlap(refined.iterate))
+    left = largest(refined.residual, formulation.overlap(refined.iterate))
     return with_power_errors(formulation, replace(refined, residual=left))
 
 
@@ -296,7 +297,7 @@ def on_last_mesh(
 
     ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(iterate), formulation.overlap(iterate))
+    left = largest(left, violation(iterate), formulation.overlap(iterate))
     figures = formulation.figures(iterate)
     found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
     return with_power_errors(formulation, found)

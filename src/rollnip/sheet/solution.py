@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip._results.profiles import fine_points, slip_in_zones, surface_strain
 from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip.interior import SurfaceTractions
@@ -110,7 +111,7 @@ class SheetSolution(SmoothSolution):
             "traction": traction,
             "dissipation_friction": speed * (mine["friction_upper"] + mine["friction_lower"]),
             "dissipation_viscous": speed * lost,
-            "rolling_resistance": lost / load,
+            "rolling_resistance": (lost + self.rolling_resistance * out["load"]) / load,
             "peak_pressure_x": mine["peak_pressure_x"],
             "mean_pressure": load / length * (out["nip_width"] / length + out["load"] / load),
             "dwell_time": out["nip_width"] / speed,
@@ -297,7 +298,7 @@ class SheetSolution(SmoothSolution):
             )
             passed = power_left(out[f"creepage_{side}"], pull, self.final)
             for name in (f"friction_{side}", f"pull_{side}"):
-                out[name] = max(out[name], SHARE_OF_CUT * loss, passed)
+                out[name] = largest(out[name], SHARE_OF_CUT * loss, passed)
         return out
 
     @cached_property

@@ -80,14 +80,14 @@ class CurvedLoad:
             return self.height[at], self.rotation[at]
         return _deflection(self.loads, x, self.loads.tail_moments_at(x))
 
-    def change_from(self, old: CurvedLoad, load: float) -> float:
-        """Return the largest change of couple and force since an older load, over the line load."""
+    def change_from(self, old: CurvedLoad) -> float:
+        """Return the largest change of couple and force since an older load [N/mm]."""
         x = self.loads.nodes
         couple, force = (
             np.abs(new - np.interp(x, old.loads.nodes, one))
             for new, one in zip(self.loads.lines.T, old.loads.lines.T, strict=True)
         )
-        return float(couple.max() + np.trapezoid(force, x)) / load
+        return float(couple.max() + np.trapezoid(force, x))
 
 
 def _deflection(loads: PiecewiseLoads, x: Array, tail_moments: Array) -> tuple[Array, Array]:

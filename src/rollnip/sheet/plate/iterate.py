@@ -31,14 +31,14 @@ def shear_over(iterate: PlateIterate) -> float:
 
     Infinite where one side has no pressure.
     """
-    state, most = iterate.state, 0.0
+    state, parts = iterate.state, [0.0]
     for side, friction in enumerate(iterate.problem.frictions):
         bound = friction * np.maximum(state.pressure[side], 0.0)
         if not np.any(state.pressure[side] > 0.0):
             return inf
         over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
-        most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
-    return most
+        parts.append(float(np.max(over, initial=0.0)) / float(bound.max()))
+    return largest(*parts)
 
 
 def pulls_at_edges(iterate: PlateIterate) -> bool:
@@ -55,14 +55,14 @@ def added_to_peaks(iterate: PlateIterate, proposed: PlateZones) -> float:
 
     ``proposed``: zones with their edges where they should be.
     """
-    most = 0.0
+    parts = [0.0]
     for side, mesh in enumerate(iterate.problem.meshes):
         x, top = mesh.inner, int(np.argmax(iterate.state.pressure[side]))
         for node, edge, place in zip((1, x.size - 2), (0, -1), proposed.edges[side], strict=True):
             if top == node:
                 off, away = abs(place - x[edge]), abs(x[node] - x[edge])
-                most = max(most, float(off / (2.0 * away + off)))
-    return most
+                parts.append(float(off / (2.0 * away + off)))
+    return largest(*parts)
 
 
 def overlap(iterate: PlateIterate, geometry: Geometry) -> float:

@@ -12,13 +12,14 @@ from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.surface_work import mean_shear
+from rollnip.sheet.figures import scale_of_creepages
 from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.lagged_terms import (
     creep_in_stick,
     has_no_terms,
     initial_traction,
+    over_load,
     pressed_gap,
     sheet_rate,
     traction_for_torque,
@@ -114,7 +115,7 @@ def change_of_terms(
     half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
     strain = nip.curvature * half
     approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
-    scale = scale_of_creepage(max(map(abs, state.creepages)), strain)
+    scale = scale_of_creepages(state.creepages, strain)
     changes = []
     for side, mesh in enumerate(problem.meshes):
         drift = new.offsets[side] - old.offsets[side]
@@ -123,7 +124,7 @@ def change_of_terms(
         changes.append(float(moved.max()) / approach)
     if new.traction is not None and old.traction is not None:
         load = float(problem.meshes[0].weights @ state.pressure[0])
-        changes.append(abs(new.traction - old.traction) / (strain * load))
+        changes.append(over_load(abs(new.traction - old.traction), strain * load))
     changes.append(_curved_change(new, old, problem, state))
     return largest(*changes)
 
@@ -133,12 +134,10 @@ def _curved_change(
 ) -> float:
     """Return the change of tension, couples and forces due to the curved path, over the load."""
     load = float(problem.meshes[0].weights @ state.pressure[0])
-    if not load > 0.0:
-        return 0.0
-    change = new.known.change_from(old.known) / load
-    if new.curved is None or old.curved is None:
-        return change
-    return max(change, new.curved.change_from(old.curved, load))
+    change = new.known.change_from(old.known)
+    if new.curved is not None and old.curved is not None:
+        change = largest(change, new.curved.change_from(old.curved))
+    return over_load(change, load)
 
 
 def residual_with_terms(
@@ -149,13 +148,12 @@ def residual_with_terms(
     See `rollnip.sheet.membrane.lagged_terms.residual_with_terms`.
     """
     nip, parts = problem.nip, [0.0]
-    creepage = max(map(abs, state.creepages))
     for side, mesh in enumerate(problem.meshes):
         half = 0.5 * float(np.ptp(mesh.inner))
         approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
         gap = pressed_gap(new.clearance[side] - old.clearance[side], state.pressure[side])
         drift = creep_in_stick(new.offsets[side] - old.offsets[side], state.states[side])
-        scale = scale_of_creepage(creepage, nip.curvature * half)
+        scale = scale_of_creepages(state.creepages, nip.curvature * half)
         parts += [gap / approach, drift / (2.0 * half * scale)]
     return largest(*parts, _curved_change(new, old, problem, state))
 

@@ -16,6 +16,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import Crowding, cosine_nodes, crowding_of, elements_of_zones, subdivided
 from rollnip.model import Model
 from rollnip.rolling import RollingContact
@@ -181,7 +182,7 @@ class PlateSearch:
             proposed=proposed,
             misplacement=misplacement,
             violated=violated,
-            is_met=max(violated, shear_over(iterate)) <= self._slack,
+            is_met=largest(violated, shear_over(iterate)) <= self._slack,
             is_at_rest=is_at_rest,
             is_placed=is_placed,
         )

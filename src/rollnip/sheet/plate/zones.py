@@ -8,6 +8,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.zones import (
@@ -82,7 +83,7 @@ class PlateZones(SideZones):
             share = np.abs(one.breaks - two.breaks) / two.width
             share[1:-1] *= OF_TRANSITIONS * share[1:-1]
             parts.append(float(share.max()))
-        return max(parts)
+        return largest(*parts)
 
     def edges_off(self, other: PlateZones) -> float:
         """Return the largest distance between the edges of both, over the widths of these zones."""

@@ -71,8 +71,8 @@ def violation_outside(
     """
     depth = depth_scale(nip, width, approach)
     peak = float(np.max(pressure))
-    pull = float(np.max(-pressure)) / peak if peak > 0.0 else inf
-    return largest(0.0, float(np.max(-gap)) / depth, pull)
+    tensile = float(np.max(-pressure)) / peak if peak > 0.0 else inf
+    return largest(0.0, float(np.max(-gap)) / depth, tensile)
 
 
 def _longest_run(values: Array) -> float:

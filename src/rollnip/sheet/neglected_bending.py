@@ -34,7 +34,7 @@ membrane and as plate (decisions 36 and 42).
 _OF_GEARED = 1.2  # the same for tractions at a given creepage, over the limit of friction
 _WIDTH = 3  # index of the nip width
 _PEAK, _PEAK_ON_RIGID = 4, 6.5  # index of the peak pressure; its change where edges have peaks
-_PULLS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
+_TRACTIONS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
 
 
 def neglected_bending_errors(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
@@ -51,12 +51,12 @@ def neglected_bending_errors(nip: Nip, figures: SheetFigures, wrapped: float) ->
     changes = _BY_LENGTH.copy()
     if nip.upper.is_rigid or nip.lower.is_rigid:
         changes[_PEAK] = _PEAK_ON_RIGID
-    share = spreading_length(nip) / figures.nip_width
-    out = share * changes * scales(nip, figures)
+    ratio = spreading_length(nip) / figures.nip_width
+    out = ratio * changes * scales(nip, figures)
     out[_WIDTH] += wrapped
     if isinstance(nip.tangential, Creepage):  # creepages are given, so tractions change
         friction = min(nip.friction_on("upper"), nip.friction_on("lower"))
-        out[_PULLS] += _OF_GEARED * share * friction * figures.load
+        out[_TRACTIONS] += _OF_GEARED * ratio * friction * figures.load
     return np.asarray(out)
 
 

@@ -144,7 +144,7 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
     return slipping / (zones[-1].stop - zones[0].start)
 
 
-def pull_in_slip(one: MeshSolution) -> float:
+def traction_in_slip(one: MeshSolution) -> float:
     """Return int |q| dx over the slip zones of an interface [N/mm]."""
     slips = one.state.states > State.STICK
     return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))

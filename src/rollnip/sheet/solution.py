@@ -37,8 +37,8 @@ from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
     SheetProfiles,
     SheetResult,
-    pull_in_slip,
     slip_share_of,
+    traction_in_slip,
 )
 from rollnip.sheet.tension import FaceLevers
 from rollnip.smooth import SmoothSolution
@@ -293,10 +293,9 @@ class SheetSolution(SmoothSolution):
         for number, (side, loss) in enumerate(zip(SIDES, self.refined.cut_losses, strict=True)):
             # An error of the creepage changes the slip velocity, and so the power of the shears
             # in slip, which may cancel in the traction.
-            pull = max(
-                abs(getattr(figures, f"traction_{side}")), pull_in_slip(self._of_side(number))
-            )
-            passed = power_left(out[f"creepage_{side}"], pull, self.final)
+            in_slip = traction_in_slip(self._of_side(number))
+            traction = max(abs(getattr(figures, f"traction_{side}")), in_slip)
+            passed = power_left(out[f"creepage_{side}"], traction, self.final)
             for name in (f"friction_{side}", f"pull_{side}"):
                 out[name] = largest(out[name], SHARE_OF_CUT * loss, passed)
         return out
@@ -337,9 +336,9 @@ class SheetSolution(SmoothSolution):
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
         iterate, state = self.refined.iterate, self._state
         nodes, problem = self.final.nodes, iterate.problem
-        pull = np.zeros(nodes.size)
-        pull[1:-1] = problem.mesh.acting(state.shear - state.shear_lower)
-        pieces = 0.5 * problem.arcs * np.diff(nodes) * (pull[1:] + pull[:-1])
+        shear = np.zeros(nodes.size)
+        shear[1:-1] = problem.mesh.acting(state.shear - state.shear_lower)
+        pieces = 0.5 * problem.arcs * np.diff(nodes) * (shear[1:] + shear[:-1])
         beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
         return np.asarray(iterate.lagged.known.at(x) - np.interp(x, nodes, beyond))
 
@@ -351,9 +350,7 @@ class SheetSolution(SmoothSolution):
 
     def _thinned(self, x: Array) -> Array:
         """Return the loss of the sheet's thickness under load [mm]."""
-        sheet = self.nip.sheet
-        assert sheet is not None
-        acting = self.refined.iterate.problem.mesh.acting(self._state.pressure)
+        sheet, acting = self.refined.iterate.problem.sheet, self.final.pressure
         thinner = thickness_loss(sheet, x, self.final.nodes, acting[:, None])[:, 0]
         return thinner + sheet.stretch_by_pressure * self._tension(x)
 

@@ -113,8 +113,8 @@ def _inequalities(
         matrix[-3, :n], right[-3] = weights, -(nip.normal.load + lagged.lean)
     else:
         matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
-    pulls = problem.force_weights
-    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3] = pulls, -pulls
+    forces = problem.force_weights
+    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3] = forces, -forces
     right[-2] = -lagged.known.change
     if isinstance(nip.tangential, Creepage):
         matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope

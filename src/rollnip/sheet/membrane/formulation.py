@@ -123,4 +123,4 @@ def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     taken = rate * float(pushed.sum())
     if geometry == "linear":
         return taken + float(pushed @ strain)
-    return taken + rate * (float(pushed @ strain) - sum(one.lost for one in faces))
+    return taken + rate * (float(pushed @ strain) - sum(one.lever_force for one in faces))

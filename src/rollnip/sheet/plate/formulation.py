@@ -145,5 +145,5 @@ def _into_sheet(iterate: PlateIterate) -> float:
     taken, lagged = 0.0, iterate.lagged
     for side, face in enumerate(face_levers(problem, state, lagged.curved)):
         strain = (problem.strain_over(state, lagged.known, side) / problem.meshes[side].dx)[:-1]
-        taken += SIDE_SIGNS[side] * float(face.forces @ (1.0 + strain)) - face.lost
+        taken += SIDE_SIGNS[side] * float(face.forces @ (1.0 + strain)) - face.lever_force
     return sheet_rate(*state.creepages) * taken

@@ -80,9 +80,9 @@ class PlateZones(SideZones):
         """
         parts = []
         for one, two in zip(self.sides, other.sides, strict=True):
-            share = np.abs(one.breaks - two.breaks) / two.width
-            share[1:-1] *= OF_TRANSITIONS * share[1:-1]
-            parts.append(float(share.max()))
+            off = np.abs(one.breaks - two.breaks) / two.width
+            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
+            parts.append(float(off.max()))
         return largest(*parts)
 
     def edges_off(self, other: PlateZones) -> float:

@@ -64,12 +64,12 @@ def settled_slip(
 
     In each step all nodes take the states that creep and shear call for. Transitions move by a node
     at a time, so there are at most as many steps as nodes. ``state``: a solution close to it;
-    ``slack``: see `updated_states`.
+    ``slack``: see `wanted_slip`.
     """
     tried: set[bytes] = set()
     for steps in range(1, state.states.size):
         creeps = problem.creeps(state, lagged)
-        wanted = updated_states(problem, state, creeps, slack)
+        wanted = wanted_slip(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
         if wanted.tobytes() in tried:
@@ -82,7 +82,7 @@ def settled_slip(
     return None
 
 
-def updated_states(
+def wanted_slip(
     problem: MembraneProblem, state: MembraneState, creeps: tuple[Array, Array], slack: float
 ) -> States:
     """Return the states of both interfaces that follow from creep and shear, (2, n).

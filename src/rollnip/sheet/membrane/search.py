@@ -39,7 +39,7 @@ from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
     solve_complementarity,
-    updated_states,
+    wanted_slip,
 )
 from rollnip.sheet.membrane.lagged_terms import (
     change_of_terms,
@@ -280,7 +280,7 @@ class _ZonesByStates:
     Attributes
     ----------
     iterate : the solution.
-    slack : see `updated_states`.
+    slack : see `wanted_slip`.
     """
 
     iterate: MembraneIterate
@@ -289,7 +289,7 @@ class _ZonesByStates:
     @cached_property
     def _wanted(self) -> States:
         iterate = self.iterate
-        return updated_states(iterate.problem, iterate.state, iterate.creeps, self.slack)
+        return wanted_slip(iterate.problem, iterate.state, iterate.creeps, self.slack)
 
     @cached_property
     def _consistent_zones(self) -> MembraneZones | None:

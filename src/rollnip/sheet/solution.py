@@ -100,7 +100,7 @@ class SheetSolution(SmoothSolution):
         speed = nan if nip.speed is None else nip.speed
         load, length = self.load, self.nip_width
         lost = mine["lost_upper"] + mine["lost_lower"]
-        out |= {name: max(out[name], mine[name]) for name in not_prescribed(nip)}
+        out |= {name: largest(out[name], mine[name]) for name in not_prescribed(nip)}
         for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
             off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
             out[f"torque_{side}"] = nan if isinf(roller.radius) else roller.radius * off
@@ -246,7 +246,7 @@ class SheetSolution(SmoothSolution):
         if isinstance(self.nip.tangential, Creepage) and self.model.geometry in FINITE:
             passed = mine["creepage"] * self._traction_slope()
             sides = ("traction_upper", "traction_lower")
-            mine |= {name: max(mine[name], passed) for name in sides}
+            mine |= {name: largest(mine[name], passed) for name in sides}
         if isinstance(self.nip.tangential, Creepage | Torque):
             return mine
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
@@ -294,7 +294,7 @@ class SheetSolution(SmoothSolution):
             # An error of the creepage changes the slip velocity, and so the power of the shears
             # in slip, which may cancel in the traction.
             in_slip = traction_in_slip(self._of_side(number))
-            traction = max(abs(getattr(figures, f"traction_{side}")), in_slip)
+            traction = largest(abs(getattr(figures, f"traction_{side}")), in_slip)
             passed = power_left(out[f"creepage_{side}"], traction, self.final)
             for name in (f"friction_{side}", f"pull_{side}"):
                 out[name] = largest(out[name], SHARE_OF_CUT * loss, passed)

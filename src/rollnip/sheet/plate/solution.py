@@ -9,6 +9,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip._results.profiles import fine_points
 from rollnip.contact import ContactProblem, Control
 from rollnip.model import FINITE
@@ -62,13 +63,13 @@ class PlateSolution(SheetSolution):
         sheet, (slope, curvature) = self._iterate.problem.sheet, self._path
         strain = 0.5 * sheet.thickness * curvature * slope
         for name in ("tension_max", "tension_min"):
-            out[name] = max(out[name], strain / sheet.stretch_by_tension)
-        out["strain_max"] = max(out["strain_max"], strain)
+            out[name] = largest(out[name], strain / sheet.stretch_by_tension)
+        out["strain_max"] = largest(out["strain_max"], strain)
         is_lower = figures is self._plate_refined.lower
         if (self.nip.lower if is_lower else self.nip.upper).is_rigid:
-            out["nip_width"] = max(out["nip_width"], slope * figures.nip_width)
+            out["nip_width"] = largest(out["nip_width"], slope * figures.nip_width)
             left = SHARE_OF_EDGE_PEAK["finite"] * figures.peak_pressure
-            out["peak_pressure"] = max(out["peak_pressure"], left)
+            out["peak_pressure"] = largest(out["peak_pressure"], left)
         return out
 
     @property
@@ -82,9 +83,9 @@ class PlateSolution(SheetSolution):
         rotations = iterate.problem.rotations(iterate.state, iterate.lagged.curved)
         for mesh, rotation in zip(iterate.problem.meshes, rotations, strict=True):
             x, turned = mesh.inner, rotation[:-1]
-            slope = max(slope, float(np.max(turned**2, initial=0.0)))
+            slope = largest(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
-            curvature = max(curvature, float(np.max(bent, initial=0.0)))
+            curvature = largest(curvature, float(np.max(bent, initial=0.0)))
         return slope, curvature
 
     @property

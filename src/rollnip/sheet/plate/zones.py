@@ -88,7 +88,8 @@ class PlateZones(SideZones):
     def edges_off(self, other: PlateZones) -> float:
         """Return the largest distance between the edges of both, over the widths of these zones."""
         parts = zip(self.sides, self.edges, other.edges, strict=True)
-        return max(float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
+        off = (float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
+        return largest(*off)
 
     def states_on(self, x: tuple[Array, Array]) -> tuple[States, States]:
         """Return the states of the nodes on both interfaces."""

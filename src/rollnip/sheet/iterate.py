@@ -37,6 +37,11 @@ class InterfaceProblem(Protocol):
         """The friction coefficients of both interfaces."""
         ...
 
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """The curvatures of the gaps that both interfaces close [1/mm]."""
+        ...
+
     def creeps(self, state: Any, lagged: Any) -> tuple[Array, Array]:
         """Return the creep of both interfaces over each interval, each (n,) [mm]."""
         ...
@@ -79,6 +84,10 @@ class SheetTerms(Protocol):
     @property
     def lean(self) -> float:
         """Part of the line load that is carried by the shears instead of the pressure [N/mm]."""
+        ...
+
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the gap and of the creep of one interface, each (n,) [mm]."""
         ...
 
 

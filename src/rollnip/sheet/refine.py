@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip._results.records import SolverInfo
-from rollnip.contact import ContactProblem, ContactState
+from rollnip.contact import ContactProblem, ContactState, Control
 from rollnip.rolling import MeshSolution, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
@@ -86,34 +86,39 @@ class Refined(Generic[T]):
         """Return their errors."""
         return self.errors_by_side[-1]
 
-    def upper_mesh_solution(
-        self,
-        contact: RollingContact,
-        problem: ContactProblem,
-        state: ContactState,
-        terms: tuple[Array, Array],
+    def mesh_solution(
+        self, contact: RollingContact, state: ContactState, side: int = 0
     ) -> MeshSolution:
-        """Return the solution in the form of a bare nip's, with the upper interface's tractions.
+        """Return the solution in the form of a bare nip's, with the tractions of one interface.
 
         Parameters
         ----------
         contact : the contact solved.
-        problem, state : what a bare nip on the mesh of the upper interface would have.
-        terms : lagged terms of the gap and of the creep of the upper interface, each (n,) [mm].
+        state : of the interface.
+        side : 0 the upper and 1 the lower interface, which only a plate has on a mesh of its own.
         """
-        iterate, (clearance, offset) = self.iterate, terms
-        mesh = iterate.problem.meshes[0]
+        iterate, problem = self.iterate, self.iterate.problem
+        mesh, (clearance, offset) = problem.meshes[side], iterate.lagged.of_side(side)
+        nothing, creepage = np.zeros(mesh.inner.size), sum(iterate.state.creepages)
+        alone = ContactProblem(
+            x=mesh.inner,
+            weights=mesh.weights,
+            clearance=0.5 * problem.curvatures[side] * mesh.inner**2 + clearance,
+            influence=mesh.influence,
+            creep_length=mesh.dx,
+            creep_offset=nothing,
+            friction=problem.frictions[side],
+            control=Control(None, iterate.state.approach, None, creepage),
+        )
         return MeshSolution(
             contact=contact,
             mesh=mesh,
-            problem=problem,
+            problem=alone,
             state=state,
-            lagged=LaggedTerms(
-                clearance, np.zeros(mesh.inner.size), offset, iterate.lagged.traction
-            ),
-            zones=iterate.zones.upper.zones,
-            figures=self.figures.watched,
-            error=self.errors.watched,
+            lagged=LaggedTerms(clearance, nothing, offset, iterate.lagged.traction),
+            zones=iterate.zones.sides[side].zones,
+            figures=self.figures_by_side[side].watched,
+            error=self.errors_by_side[side].watched,
             steps=iterate.steps,
             settled=iterate.settled,
             geometry_change=iterate.change,

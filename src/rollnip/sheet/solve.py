@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from time import perf_counter
 
-import numpy as np
-
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import MeshSolution, RollingContact
+from rollnip.rolling import RollingContact
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.checks import (
     compression_reservations,
@@ -96,7 +93,7 @@ def _solve_as_membrane(
     version, no_plate = record
     contact, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     require_grip(nip, refined)
-    final = membrane_mesh_solution(contact, refined)
+    final = refined.mesh_solution(contact, refined.iterate.state)
     converged, status = (False, no_plate[0].text) if no_plate else sheet_verdict(refined, final)
     strains = StrainSizes.of(final)
     solution = SheetSolution(
@@ -145,27 +142,6 @@ def _none_found(nip: Nip) -> str:
             "try a larger load or other tensions."
         )
     return none_found(nip, otherwise)
-
-
-def membrane_mesh_solution(
-    contact: RollingContact, refined: Refined[MembraneIterate]
-) -> MeshSolution:
-    """Return a membrane solution in the form of a bare nip's, with the shear of the upper side."""
-    nip, iterate = contact.nip, refined.iterate
-    mesh, lagged = iterate.problem.mesh, iterate.lagged
-    total = iterate.state.creepage + iterate.state.creepage_lower
-    problem = ContactProblem(
-        x=mesh.inner,
-        weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + lagged.clearance,
-        influence=mesh.influence,
-        creep_length=mesh.dx,
-        creep_offset=np.zeros(mesh.inner.size),
-        friction=nip.friction,
-        control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
-    )
-    terms = lagged.clearance, lagged.offsets[0]
-    return refined.upper_mesh_solution(contact, problem, iterate.state, terms)
 
 
 def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:

@@ -144,6 +144,10 @@ class MembraneTerms:
     known: KnownTension
     lean: float = 0.0
 
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the common gap and of the creep of one interface, each (n,) [mm]."""
+        return self.clearance, self.offsets[number]
+
 
 @dataclass(frozen=True)
 class MembraneProblem:
@@ -230,6 +234,11 @@ class MembraneProblem:
     def meshes(self) -> tuple[MembraneMesh, MembraneMesh]:
         """Return the mesh of each interface; both are the same."""
         return self.mesh, self.mesh
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Return the curvature of the common gap for each interface [1/mm]."""
+        return self.nip.curvature, self.nip.curvature
 
     @property
     def knows_path(self) -> bool:

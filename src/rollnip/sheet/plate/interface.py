@@ -140,13 +140,8 @@ def _turns(cubic: list[float]) -> list[float]:
     return [top / bottom for top, bottom in ((far, 3.0 * third), (slope, far)) if bottom]
 
 
-def curvatures(nip: Nip) -> tuple[float, float]:
-    """Return the curvatures of the upper and the lower roller [1/mm]."""
-    return nip.upper.curvature, nip.lower.curvature
-
-
 def path_ratio(x: Array, nip: Nip, side: int, u: Displacements) -> Array:
     """Return ds/dx of the surface of one roller in each interval, (n - 1,)."""
-    inward = (u.z_upper, u.z_lower)[side]
-    slope = 0.5 * curvatures(nip)[side] * (x[1:] + x[:-1]) + np.diff(inward) / np.diff(x)
+    inward, roller = (u.z_upper, u.z_lower)[side], (nip.upper, nip.lower)[side]
+    slope = 0.5 * roller.curvature * (x[1:] + x[:-1]) + np.diff(inward) / np.diff(x)
     return np.asarray(np.sqrt(1.0 + slope**2))

@@ -32,7 +32,7 @@ from rollnip.sheet.plate.curved_path import (
     places_along,
     tension_left_out,
 )
-from rollnip.sheet.plate.interface import curvatures, path_ratio
+from rollnip.sheet.plate.interface import path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.tension import FaceLevers, KnownTension
 
@@ -182,7 +182,7 @@ def _clearance(
         return np.zeros(mesh.inner.size)
     depth = surface_depths(mesh.inner, problem.nip, geometry, u.but_last())[side]
     moved = (flat.z_upper, flat.z_lower)[side][:-1]
-    return np.asarray(depth - 0.5 * curvatures(problem.nip)[side] * mesh.inner**2 - moved)
+    return np.asarray(depth - 0.5 * problem.curvatures[side] * mesh.inner**2 - moved)
 
 
 def face_levers(
@@ -244,4 +244,4 @@ def _lean(problem: PlateProblem, state: PlateState, side: int, u: Displacements)
     shear = state.shear[side]
     levers = float(mesh.weights @ (shear * mesh.inner))
     inward = (u.z_upper, u.z_lower)[side]
-    return -sign * (curvatures(problem.nip)[side] * levers + mesh.work(shear, inward))
+    return -sign * (problem.curvatures[side] * levers + mesh.work(shear, inward))

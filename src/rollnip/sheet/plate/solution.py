@@ -11,15 +11,11 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip._results.profiles import fine_points
-from rollnip.contact import ContactProblem, Control
 from rollnip.model import FINITE
-from rollnip.rolling import Displacements, MeshSolution, RollingContact
-from rollnip.rolling.assemble import LaggedTerms
+from rollnip.rolling import Displacements, MeshSolution
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
-from rollnip.sheet.plate.interface import values_at
 from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.lagged_terms import face_levers
 from rollnip.sheet.plate.linear_system import FactorisedPlate
@@ -89,10 +85,6 @@ class PlateSolution(SheetSolution):
         return slope, curvature
 
     @property
-    def _state(self) -> MembraneState:
-        return cast(MembraneState, self.final.state)
-
-    @property
     def _iterate(self) -> PlateIterate:
         return self._plate_refined.iterate
 
@@ -103,7 +95,8 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _lower_mesh_solution(self) -> MeshSolution:
-        return lower_mesh_solution(self._plate_refined, self.final)
+        state = self._iterate.state.side(1)
+        return self._plate_refined.mesh_solution(self.final.contact, state, side=1)
 
     def _of_side(self, side: int) -> MeshSolution:
         return self.final if side == 0 else self._lower_mesh_solution
@@ -153,64 +146,3 @@ class PlateSolution(SheetSolution):
         iterate, curved = self._iterate, self._iterate.lagged.curved
         turned = direction_of(iterate.problem.path_at(iterate.state, x, curved)[1], curved)
         return np.asarray(0.5 * iterate.problem.sheet.thickness * np.diff(turned) / np.diff(x))
-
-
-def plate_mesh_solution(contact: RollingContact, refined: Refined[PlateIterate]) -> MeshSolution:
-    """Return a solution in the form of a bare nip's, with the upper interface's tractions."""
-    iterate = refined.iterate
-    state, problem = iterate.state, iterate.problem
-    upper, lower = problem.meshes
-    shear_lower = values_at(lower, state.shear[1], upper.inner)
-    one = state.side(0)
-    both = MembraneState(
-        states=one.states,
-        pressure=one.pressure,
-        shear=one.shear,
-        approach=one.approach,
-        creepage=state.creepages[0],
-        steps=iterate.steps,
-        settled=True,
-        states_lower=state.states[1],
-        shear_lower=shear_lower,
-        creepage_lower=state.creepages[1],
-    )
-    lagged = iterate.lagged
-    terms = lagged.clearance[0], lagged.offsets[0]
-    return refined.upper_mesh_solution(contact, _as_problem(iterate, 0), both, terms)
-
-
-def lower_mesh_solution(refined: Refined[PlateIterate], upper: MeshSolution) -> MeshSolution:
-    """Return the `MeshSolution` of the lower interface, from that of the upper one."""
-    iterate = refined.iterate
-    mesh, lagged = iterate.problem.meshes[1], iterate.lagged
-    return replace(
-        upper,
-        mesh=mesh,
-        problem=_as_problem(iterate, 1),
-        state=iterate.state.side(1, creepage=iterate.state.creepage),
-        lagged=LaggedTerms(
-            lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
-        ),
-        zones=iterate.zones.lower.zones,
-        figures=refined.lower.watched,
-        error=refined.lower_errors.watched,
-    )
-
-
-def _as_problem(iterate: PlateIterate, side: int) -> ContactProblem:
-    """Return the contact problem that a bare nip would have on the mesh of one interface."""
-    problem, mesh = iterate.problem, iterate.problem.meshes[side]
-    curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
-    control = Control(
-        load=None, approach=iterate.state.approach, traction=None, creepage=iterate.state.creepage
-    )
-    return ContactProblem(
-        x=mesh.inner,
-        weights=mesh.weights,
-        clearance=0.5 * curvature * mesh.inner**2 + iterate.lagged.clearance[side],
-        influence=mesh.influence,
-        creep_length=mesh.dx,
-        creep_offset=np.zeros(mesh.inner.size),
-        friction=problem.frictions[side],
-        control=control,
-    )

@@ -28,7 +28,7 @@ from rollnip.sheet.checks import (
 from rollnip.sheet.one_geometry import solve_until_settled
 from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.iterate import PlateIterate
-from rollnip.sheet.plate.solution import PlateSolution, lower_mesh_solution, plate_mesh_solution
+from rollnip.sheet.plate.solution import PlateSolution
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
@@ -108,8 +108,9 @@ def _assembled(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     reservations, seconds, version = record
-    final = plate_mesh_solution(contact, refined)
-    both = final, lower_mesh_solution(refined, final)
+    state = refined.iterate.state
+    final, lower = (refined.mesh_solution(contact, state.side(side), side) for side in (0, 1))
+    both = final, lower
     converged, status = _verdict(refined, both)
     strains = _strains(both)
     reservations += compression_reservations(refined.figures, refined.errors)

@@ -31,7 +31,6 @@ from rollnip.sheet.friction import SIDE_SIGNS, frictions_of
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.curved_path import CurvedLoad
 from rollnip.sheet.plate.interface import (
-    curvatures,
     stretch_by,
     values_at,
 )
@@ -74,14 +73,14 @@ class PlateState:
         parts = zip(self.pressure, self.shear, strict=True)
         return np.concatenate([traction for side in parts for traction in side])
 
-    def side(self, number: int, *, creepage: float | None = None) -> ContactState:
+    def side(self, number: int) -> ContactState:
         """Return one interface as a contact state of its own."""
         return ContactState(
             states=self.states[number],
             pressure=self.pressure[number],
             shear=self.shear[number],
             approach=self.approach,
-            creepage=self.creepages[number] if creepage is None else creepage,
+            creepage=self.creepages[number],
             steps=1,
             settled=True,
         )
@@ -108,6 +107,10 @@ class PlateTerms:
     known: KnownTension
     lean: float = 0.0
     curved: CurvedLoad | None = None
+
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the gap and of the creep of one interface, each (n,) [mm]."""
+        return self.clearance[number], self.offsets[number]
 
 
 @dataclass(frozen=True)
@@ -157,6 +160,11 @@ class PlateProblem:
         return cls(nip, sheet, plate, meshes, loads, arcs, frictions_of(nip), *made)
 
     @property
+    def curvatures(self) -> tuple[float, float]:
+        """Return the curvatures of the upper and the lower roller [1/mm]."""
+        return self.nip.upper.curvature, self.nip.lower.curvature
+
+    @property
     def starts(self) -> tuple[int, int, int, int, int]:
         """Return the start indices of p_u, q_u, p_l, q_l among the tractions, and the end."""
         n, m = (mesh.inner.size for mesh in self.meshes)
@@ -175,9 +183,7 @@ class PlateProblem:
         """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
         sheet, known = self.sheet, lagged.known
         out, half = [], 0.5 * sheet.thickness
-        for side, (mesh, curvature) in enumerate(
-            zip(self.meshes, curvatures(self.nip), strict=True)
-        ):
+        for side, (mesh, curvature) in enumerate(zip(self.meshes, self.curvatures, strict=True)):
             gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
             creep = lagged.offsets[side]
             if lagged.curved is not None:

@@ -19,7 +19,7 @@ from rollnip.sheet.formulation import Formulation, IterateT
 from rollnip.sheet.refine import Refined, refine
 
 
-class OneSolved(NamedTuple, Generic[IterateT]):
+class SolvedContact(NamedTuple, Generic[IterateT]):
     """A contact to solve, and its solution; None where there is none.
 
     In "finite" a contact with a solution holds its correction.
@@ -39,7 +39,7 @@ def solve_until_settled(
     nip: Nip,
     model: Model,
     cache: KernelCache,
-) -> list[OneSolved[IterateT]]:
+) -> list[SolvedContact[IterateT]]:
     """Return the solution in the model's geometry and, until one has settled, in simpler ones.
 
     ``formulate`` : makes the formulation of a contact.
@@ -56,17 +56,17 @@ def solve_in_geometry(
     nip: Nip,
     model: Model,
     cache: KernelCache,
-) -> OneSolved[IterateT]:
+) -> SolvedContact[IterateT]:
     """Return the contact to solve in the model's geometry, and its solution."""
     contact = RollingContact(nip, model, pair_kernels(nip, model.geometry, cache))
     bare_half_width = half_width_guess(nip, contact.kernels)
     half_width = half_width_with_sheet(nip, bare_half_width)
     if model.geometry == "finite":
         found = solve_by_iteration(formulate(contact), half_width)
-        return OneSolved(contact, None) if found is None else OneSolved(*found)
+        return SolvedContact(contact, None) if found is None else SolvedContact(*found)
     if model.geometry == "second":
         contact = with_second_order(contact, bare_half_width, cache)
     try:
-        return OneSolved(contact, refine(formulate(contact), half_width))
+        return SolvedContact(contact, refine(formulate(contact), half_width))
     except np.linalg.LinAlgError:
-        return OneSolved(contact, None)
+        return SolvedContact(contact, None)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip._results.records import SolverInfo
-from rollnip.contact import ContactProblem, ContactState, Control
+from rollnip.contact import ContactProblem, Control
 from rollnip.rolling import MeshSolution, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
@@ -86,16 +86,11 @@ class Refined(Generic[T]):
         """Return their errors."""
         return self.errors_by_side[-1]
 
-    def mesh_solution(
-        self, contact: RollingContact, state: ContactState, side: int = 0
-    ) -> MeshSolution:
+    def mesh_solution(self, contact: RollingContact, side: int = 0) -> MeshSolution:
         """Return the solution in the form of a bare nip's, with the tractions of one interface.
 
-        Parameters
-        ----------
-        contact : the contact solved.
-        state : of the interface.
-        side : 0 the upper and 1 the lower interface, which only a plate has on a mesh of its own.
+        ``contact``: the contact solved; ``side``: 0 the upper interface and 1 the lower one, which
+        has a mesh of its own for a plate only.
         """
         iterate, problem = self.iterate, self.iterate.problem
         mesh, (clearance, offset) = problem.meshes[side], iterate.lagged.of_side(side)
@@ -114,7 +109,7 @@ class Refined(Generic[T]):
             contact=contact,
             mesh=mesh,
             problem=alone,
-            state=state,
+            state=iterate.state.side(side),
             lagged=LaggedTerms(clearance, nothing, offset, iterate.lagged.traction),
             zones=iterate.zones.sides[side].zones,
             figures=self.figures_by_side[side].watched,

@@ -93,7 +93,7 @@ def _solve_as_membrane(
     version, no_plate = record
     contact, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     require_grip(nip, refined)
-    final = refined.mesh_solution(contact, refined.iterate.state)
+    final = refined.mesh_solution(contact)
     converged, status = (False, no_plate[0].text) if no_plate else sheet_verdict(refined, final)
     strains = StrainSizes.of(final)
     solution = SheetSolution(

@@ -95,8 +95,7 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _lower_mesh_solution(self) -> MeshSolution:
-        state = self._iterate.state.side(1)
-        return self._plate_refined.mesh_solution(self.final.contact, state, side=1)
+        return self._plate_refined.mesh_solution(self.final.contact, side=1)
 
     def _of_side(self, side: int) -> MeshSolution:
         return self.final if side == 0 else self._lower_mesh_solution

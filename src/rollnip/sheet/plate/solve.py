@@ -108,8 +108,7 @@ def _assembled(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     reservations, seconds, version = record
-    state = refined.iterate.state
-    final, lower = (refined.mesh_solution(contact, state.side(side), side) for side in (0, 1))
+    final, lower = (refined.mesh_solution(contact, side) for side in (0, 1))
     both = final, lower
     converged, status = _verdict(refined, both)
     strains = _strains(both)

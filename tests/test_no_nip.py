@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.no_nip import impossible
 
 RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)
 FOAM = rn.Elastic(modulus=0.05, poisson=0.3)
@@ -87,6 +88,36 @@ def test_no_roller_turns_backwards():
     assert "geometry" not in solution.status
     with pytest.raises(rn.ConvergenceError, match="rotate backwards"):
         rn.solve(nip, rn.Model(geometry="linear"), on_failure="raise")
+
+
+def test_beside_a_sheet_rollers_turn_backwards_by_the_difference_of_their_own_speeds():
+    """And not by that of one of them and the sheet."""
+    final = rn.solve(replace(NIP, sheet=rn.Sheet(thickness=0.1, modulus=3000.0))).final
+    own, both = (
+        replace(final, state=replace(final.state, creepage=upper), figures=figures)
+        for upper, figures in (
+            (2.5, final.figures),
+            (1.2, replace(final.figures, creepage=2.4)),
+        )
+    )
+    assert impossible(own) == ""
+    assert "The creepage comes out as 2.4" in impossible(both)
+
+
+def test_beside_a_sheet_layers_relax_at_the_speed_of_their_roller(monkeypatch):
+    """Both rollers' speeds follow from their difference, on whichever interface it is."""
+    checks = importlib.import_module("rollnip.no_nip")
+    rubber = rn.StandardLinearSolid(modulus=1.0, stiffening=2.0, relaxation_time=0.01, poisson=0.5)
+    layers = [rn.Layer(2.0, rubber), rn.Layer(2.0, RUBBER)]
+    sheet = rn.Sheet(thickness=0.1, modulus=3000.0, bending=True, tension_in=1.0)
+    nip = replace(NIP, upper=rn.Roller(radius=50.0, layers=layers), sheet=sheet)
+    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    asked = []
+    monkeypatch.setattr(checks, "MOST_PRESSED_IN", 1e-3)
+    monkeypatch.setattr(checks, "beyond_linear", lambda *a: asked.append(a[-1]))
+    impossible(solution.final)
+    assert abs(solution.sheet.creepage_lower) > 1e-4
+    assert asked[0] == (100.0, pytest.approx(100.0 * (1.0 + 0.5 * solution.creepage), rel=1e-12))
 
 
 def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkeypatch):

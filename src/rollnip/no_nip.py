@@ -26,7 +26,7 @@ MOST_CREEPAGE = 2.0
 
 def impossible(final: MeshSolution) -> str:
     """Return why the result is no nip, in a sentence; "" where nothing speaks against it."""
-    creepage = final.state.creepage
+    creepage = final.figures.creepage
     if not isnan(creepage) and abs(creepage) >= MOST_CREEPAGE:
         return (
             f"The creepage comes out as {creepage:.2g}: beyond -2 and 2 one roller would "
@@ -125,7 +125,7 @@ def _pressed_in(side: str, roller: Roller, final: MeshSolution, geometry: Geomet
     depths, place = np.array([0.0, *roller.interfaces]), final.mesh.inner[[deepest]]
     speed, speeds = final.nip.speed, None
     if speed is not None:
-        rate = rates_of(geometry, final.state.creepage)[0 if side == "upper" else 1]
+        rate = rates_of(geometry, final.figures.creepage)[0 if side == "upper" else 1]
         speeds = (speed, rate * speed)
     beyond = beyond_linear(roller, geometry, tractions, speeds)
     field = interior_field(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isnan
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip._results.profiles import fine_points, slip_velocity, surface_strain
 from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip._sealed import sealed
-from rollnip.contact import State, contact_intervals
+from rollnip.contact import contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
     MeshSolution,
@@ -89,15 +88,7 @@ class SmoothSolution(Solution):
     @cached_property
     def zones(self) -> tuple[Zone, ...]:
         """Stick and slip zones from trailing to leading edge; empty without friction."""
-        if self.nip.friction == 0.0:
-            return ()
-        # q = -mu p sign(slip velocity): shear along +x resists slip of the upper surface along -x.
-        kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
-            State.STICK: ("stick", None),
-            State.SLIP_PLUS: ("slip", -1),
-            State.SLIP_MINUS: ("slip", 1),
-        }
-        return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
+        return () if self.nip.friction == 0.0 else Zone.of(self.final.zones)
 
     def _claimed_errors(self) -> dict[str, float]:
         return claims(self.final) | secondary_claims(self.final, self._powers)

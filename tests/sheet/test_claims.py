@@ -8,10 +8,10 @@ from sheet_nips import RIGID, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
+from rollnip.contact.problem import shear_signs
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
 from rollnip.sheet.formulation import END_TOLERANCE
-from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneSearch
 from rollnip.sheet.plate.search import PlateSearch
@@ -122,7 +122,7 @@ def test_slip_ends_where_its_creep_first_comes_to_zero():
     """
     solution = rn.solve(random_case(104039).nip, rn.Model(geometry="curved"))
     iterate = solution.refined.iterate
-    signs = SIGNS.take(iterate.state.states_lower)
+    signs = shear_signs(iterate.state.states_lower)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
     back = slips & (signs * iterate.creeps[1] < 0.0)[:-1]
     assert not np.any(back[:-1] & back[1:])  # one node may, at an end between two nodes
@@ -280,8 +280,29 @@ def test_a_viscous_loss_of_second_order_claims_what_linear_fields_leave_of_it(nu
     off = abs(second.dissipation_viscous - finite.dissipation_viscous)
     assert off > 0.05 * finite.dissipation_viscous
     assert off <= second.error["dissipation_viscous"] < 3.0 * off
-    assert second.error["rolling_resistance"] == pytest.approx(
-        second.error["dissipation_viscous"] / (second.load * nip.speed)
+    lost = second.error["dissipation_viscous"] / nip.speed
+    lost += second.rolling_resistance * second.error["load"]
+    assert second.error["rolling_resistance"] == pytest.approx(lost / second.load)
+
+
+def test_the_rolling_resistance_at_a_given_approach_claims_the_error_of_the_load():
+    """Elsewhere the load is given; here it is known to some 0.1 %, and the resistance no better."""
+    rubber = rn.StandardLinearSolid(modulus=1.0, stiffening=1.0, relaxation_time=0.01, poisson=0.5)
+    nip = nip_with(
+        paper(bending=False),
+        upper=rn.Roller(radius=50, layers=[rn.Layer(2.0, rubber)]),
+        normal=rn.Approach(0.1),
+        speed=100.0,
+    )
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    assert solution.converged
+    relative = {
+        name: solution.error[name] / getattr(solution, name)
+        for name in ("load", "dissipation_viscous", "rolling_resistance")
+    }
+    assert relative["load"] > 1e-5
+    assert relative["rolling_resistance"] == pytest.approx(
+        relative["load"] + relative["dissipation_viscous"]
     )
 
 

@@ -25,15 +25,18 @@ def fine_points(final: MeshSolution) -> Array:
 
 def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: float) -> Array:
     """Return the slip velocity of the upper surface relative to the lower, nan outside contact."""
-    rate = -speed * fields.creep / np.diff(fields.x)
-    out = np.full(fields.x.size, np.nan)
-    middle = 0.5 * (fields.x[1:] + fields.x[:-1])
+    return slip_in_zones(fields.x, -speed * fields.creep / np.diff(fields.x), zones)
+
+
+def slip_in_zones(x: Array, rates: Array, zones: tuple[ContactZone, ...]) -> Array:
+    """Return the slip velocity at places: 0 in stick, nan outside contact.
+
+    ``rates``: difference of the velocities in the intervals between them.
+    """
+    out, middle = np.full(x.size, np.nan), 0.5 * (x[1:] + x[:-1])
     for zone in zones:
-        inside = (fields.x >= zone.start) & (fields.x <= zone.stop)
-        if zone.state == State.STICK:
-            out[inside] = 0.0
-        else:
-            out[inside] = np.interp(fields.x[inside], middle, rate)
+        inside = (x >= zone.start) & (x <= zone.stop)
+        out[inside] = 0.0 if zone.state == State.STICK else np.interp(x[inside], middle, rates)
     return out
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._sealed import Sealed
+from rollnip.contact import ContactZone, State
 
 Array = NDArray[np.float64]
 
@@ -29,6 +31,17 @@ class Zone:
     stop: float
     state: Literal["stick", "slip"]
     direction: int | None = None
+
+    @classmethod
+    def of(cls, zones: Iterable[ContactZone]) -> tuple[Zone, ...]:
+        """Return zones as records."""
+        # q = -mu p sign(slip velocity): shear along +x resists slip of the upper surface along -x.
+        kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
+            State.STICK: ("stick", None),
+            State.SLIP_PLUS: ("slip", -1),
+            State.SLIP_MINUS: ("slip", 1),
+        }
+        return tuple(cls(zone.start, zone.stop, *kinds[zone.state]) for zone in zones)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

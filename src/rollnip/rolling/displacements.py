@@ -68,14 +68,14 @@ class Displacements:
         """Return the displacements due to tractions (q, p) on the upper, (-q, p) on the lower.
 
         ``made``, (6, n, 2): the displacements by p and by q, for each function of
-        `pair_displacements`.
+        `pair_displacements`; (6, n, 3) by p and the q of either surface, where they differ.
         """
         xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
         four = np.empty((4, made.shape[1]))
         np.add(xz_u[:, 0], xx_u[:, 1], out=four[0])
         np.subtract(zz_u[:, 0], xz_u[:, 1], out=four[1])
-        np.subtract(xz_l[:, 0], xx_l[:, 1], out=four[2])
-        np.add(zz_l[:, 0], xz_l[:, 1], out=four[3])
+        np.subtract(xz_l[:, 0], xx_l[:, -1], out=four[2])
+        np.add(zz_l[:, 0], xz_l[:, -1], out=four[3])
         return cls(four)
 
 

@@ -51,8 +51,8 @@ def half_width_with_sheet(nip: Nip, half_width: float) -> float:
     return float(np.cbrt(half_width**3 + squeezed))
 
 
-def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
-    """Raise where the prescribed torque needs more than ``share`` times the available friction.
+def require_torque(nip: Nip, excess: float = _CLEARLY) -> None:
+    """Raise where the prescribed torque needs more than ``excess`` times the available friction.
 
     The limit is approximate, because the torque also balances the moment of the pressure.
     """
@@ -60,16 +60,16 @@ def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
         return
     lower = -nip.tangential.torque_lower * nip.lower.curvature
     asked = asked_of_friction(nip, nip.normal.load, lower)
-    pull, limit = asked["lower"]
-    if abs(pull) > share * limit:
+    force, limit = asked["lower"]
+    if abs(force) > excess * limit:
         raise InvalidInputError(
-            f"`torque_lower` asks the sheet for some {abs(pull):.4g} N/mm, but its friction on "
+            f"`torque_lower` asks the sheet for some {abs(force):.4g} N/mm, but its friction on "
             f"the lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the "
             "friction."
         )
-    pull, limit = asked["upper"]
-    if abs(pull) > share * limit:
-        raise InvalidInputError(_slips_through("torque_lower", "upper", pull, limit))
+    force, limit = asked["upper"]
+    if abs(force) > excess * limit:
+        raise InvalidInputError(_slips_through("torque_lower", "upper", force, limit))
 
 
 def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
@@ -82,9 +82,9 @@ def require_grip(nip: Nip, refined: Refined[AnyIterate]) -> None:
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     asked = asked_of_friction(nip, load, wanted)
     for side in SIDES:
-        pull, limit = asked[side]
-        if abs(pull) >= limit:
-            raise InvalidInputError(_slips_through(name, side, pull, limit))
+        force, limit = asked[side]
+        if abs(force) >= limit:
+            raise InvalidInputError(_slips_through(name, side, force, limit))
 
 
 def none_found(nip: Nip, otherwise: str) -> str:
@@ -132,13 +132,13 @@ def _may_slip_through(nip: Nip) -> bool:
     if isinstance(nip.tangential, Torque):
         given = -nip.tangential.torque_lower * nip.lower.curvature  # less the pressure's moment
     asked = asked_of_friction(nip, nip.normal.load, given).values()
-    share = 1.0 - lever_ratio(nip)
-    return any(abs(pull) >= share * limit for pull, limit in asked)
+    least = 1.0 - lever_ratio(nip)
+    return any(abs(force) >= least * limit for force, limit in asked)
 
 
-def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
+def _slips_through(name: str, side: str, force: float, limit: float) -> str:
     return (
-        f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
+        f"`{name}` and the tensions ask the {side} roller for {force:.6g} N/mm, but its "
         f"friction on the sheet carries less than {limit:.6g} N/mm: the sheet "
         "slips through; lower them, or raise the load or the friction."
     )

@@ -9,27 +9,28 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip.contact import ContactState, State
+from rollnip.contact.problem import shear_signs
 from rollnip.nip import Nip
 from rollnip.rolling.check import depth_scale
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.friction import SIGNS
+from rollnip.sheet.figures import scale_of_creepages
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
 
 OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
 """Distances beyond an edge at which overlap is checked, over the width."""
-_OF_SLOPE = 0.05  # of the nip's slope: least creepage against which slip is measured
 
 
 def violation(iterate: AnyIterate) -> float:
     """Return the residual of the friction conditions, relative; the larger of both interfaces.
 
-    Slip is measured against the creepage, or a twentieth of the nip's slope if that is larger.
+    Slip is measured against the larger of both creepages, see `scale_of_creepages`: those of geared
+    rollers may be opposite, and their sum far smaller.
     """
     problem, state = iterate.problem, iterate.state
     slope = 0.5 * iterate.zones.width * problem.nip.curvature
-    scale = max(_OF_SLOPE * slope, abs(sum(state.creepages)))
+    scale = scale_of_creepages(state.creepages, slope)
     sides = zip(problem.meshes, iterate.creeps, problem.frictions, strict=True)
     return largest(
         *(
@@ -54,7 +55,7 @@ def _violation_on(
     bound = friction * np.maximum(state.pressure, 0.0)
     beyond = np.maximum(np.abs(state.shear) - bound, 0.0) * mesh.weights
     carried = _longest_run(np.where(state.states == State.STICK, beyond, 0.0))
-    signs = SIGNS.take(state.states)
+    signs = shear_signs(state.states)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
     wrong = np.where(slips, np.maximum(-signs[:-1] * creep[:-1], 0.0), 0.0)
     allowed = float(np.ptp(mesh.inner)) * creepage
@@ -70,8 +71,8 @@ def violation_outside(
     """
     depth = depth_scale(nip, width, approach)
     peak = float(np.max(pressure))
-    pull = float(np.max(-pressure)) / peak if peak > 0.0 else inf
-    return largest(0.0, float(np.max(-gap)) / depth, pull)
+    tensile = float(np.max(-pressure)) / peak if peak > 0.0 else inf
+    return largest(0.0, float(np.max(-gap)) / depth, tensile)
 
 
 def _longest_run(values: Array) -> float:

@@ -14,6 +14,7 @@ from typing import Generic
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.all_orders.acceleration import (
     AndersonMixer,
     BestSolution,
@@ -32,6 +33,7 @@ from rollnip.rolling import RollingContact, stretch_excess
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.formulation import END_TOLERANCE, FIRST_END_TOLERANCE, Formulation, IterateT
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import AnyIterate
 from rollnip.sheet.powers import smooth_slip_works
 from rollnip.sheet.refine import Refined, initial_elements, on_last_mesh, refine
@@ -63,11 +65,11 @@ def solve_by_iteration(
         iterate = _begun(coarse, half_width, allowed=coarse.contact.tolerance)
     except np.linalg.LinAlgError:
         return None
-    for share in CUT_FACTORS:
+    for cut_factor in CUT_FACTORS:
         strain = _largest_strain(iterate)
-        orders = PairCorrection.of(contact.nip, contact.kernels, half_width, strain, share)
+        correction = PairCorrection.of(contact.nip, contact.kernels, half_width, strain, cut_factor)
         try:
-            found = _iterate_until_settled(formulation, _Progress(iterate), orders)
+            found = _iterate(formulation, _Progress(iterate), correction)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -150,42 +152,43 @@ def _coarse(formulation: Formulation[IterateT]) -> Formulation[IterateT]:
     return formulation.of(contact.with_model(coarse_model(contact.model)))
 
 
-def _iterate_until_settled(
-    formulation: Formulation[IterateT], solved: _Progress[IterateT], orders: PairCorrection
+def _iterate(
+    formulation: Formulation[IterateT], solved: _Progress[IterateT], correction: PairCorrection
 ) -> tuple[RollingContact, Refined[IterateT]] | None:
-    """Iterate corrections and contact; see `solve_by_iteration`."""
+    """Iterate contact and correction, with one cut-off; see `solve_by_iteration`."""
     contact, change = formulation.contact, inf
-    past = AndersonMixer(even_places(_edges(solved.iterate)))
-    least = BestSolution[tuple[Formulation[IterateT], Refined[IterateT], IterateT]]()
+    mixer = AndersonMixer(even_places(_edges(solved.iterate)))
+    best = BestSolution[tuple[Formulation[IterateT], Refined[IterateT], IterateT]]()
+    tolerance = contact.tolerance
     for _ in range(MOST_CORRECTIONS):
         iterate, refined = solved.iterate, solved.refined
         creepage, held = sum(iterate.state.creepages), formulation.contact.kernels.held
-        made, is_whole = orders.of_tractions(_sides(iterate), creepage, held)
-        smooth = formulation.of(contact.holding(made))
-        own = smooth.with_corrections(iterate)
+        new, is_full_load = correction.of_tractions(_sides(iterate), creepage, held)
+        updated = formulation.of(contact.holding(new))
+        own = updated.with_corrections(iterate)
         before, change = change, own.change
-        to_come = to_come_after(change, before) / contact.tolerance
-        if refined is not None and is_whole:
-            missed = formulation.residual_with_terms_of(iterate, own)
-            found = on_last_mesh(smooth, refined, own, missed)
-            if least.may_stop((smooth, found, own), found.residual / contact.tolerance, to_come):
+        to_come = to_come_after(change, before) / tolerance
+        if refined is not None and is_full_load:
+            violation = formulation.residual_with_terms_of(iterate, own)
+            checked = on_last_mesh(updated, refined, own, violation)
+            if best.may_stop((updated, checked, own), checked.residual / tolerance, to_come):
                 break
-        mixed = past.mixed(held or NO_SECOND_ORDER, made)
-        formulation = formulation.of(contact.holding(mixed))
-        near = min(to_come, change / contact.tolerance)
-        begins = refined is None and is_whole and near <= NEARLY_CONVERGED
+        accelerated = contact.holding(mixer.mixed(held or NO_SECOND_ORDER, new))
+        formulation = formulation.of(accelerated)
+        nearest = min(to_come, change / tolerance)
+        begins = refined is None and is_full_load and nearest <= NEARLY_CONVERGED
         if begins:
-            past = AndersonMixer(places_by_the_edges(_edges(iterate)))
+            mixer = AndersonMixer(places_by_the_edges(_edges(iterate)))
         solved.solve(formulation, own, refine=begins)
         if not solved.iterate.settled and solved.refined is not None:
             break
-    if least.found is None:
+    if best.found is None:
         return None
-    smooth, found, own = least.found
-    held = smooth.contact.kernels.held
+    updated, checked, own = best.found
+    held = updated.contact.kernels.held
     assert held is not None
-    uncut = smooth.of(contact.holding(held.uncut)).with_corrections(own)
-    return smooth.contact, _with_cut(found, formulation.residual_with_terms_of(own, uncut))
+    uncut = updated.of(contact.holding(held.uncut)).with_corrections(own)
+    return updated.contact, _with_cut(checked, formulation.residual_with_terms_of(own, uncut))
 
 
 def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:
@@ -198,7 +201,7 @@ def _with_cut(refined: Refined[IterateT], cut: float) -> Refined[IterateT]:
 def _sides(iterate: AnyIterate) -> tuple[RollerTractions, RollerTractions]:
     """Return the tractions of the upper and of the lower roller."""
     out: list[RollerTractions] = []
-    for number, (mesh, sign) in enumerate(zip(iterate.problem.meshes, (1.0, -1.0), strict=True)):
+    for number, (mesh, sign) in enumerate(zip(iterate.problem.meshes, SIDE_SIGNS, strict=True)):
         one = iterate.state.side(number)
         out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))
     return out[0], out[1]
@@ -212,10 +215,10 @@ def _edges(iterate: AnyIterate) -> tuple[float, float]:
 
 def _largest_strain(iterate: AnyIterate) -> float:
     """Return the largest surface strain in either contact, averaged over an element."""
-    problem, state, most = iterate.problem, iterate.state, 0.0
+    problem, state, parts = iterate.problem, iterate.state, []
     for side, mesh in enumerate(problem.meshes):
         x, u = mesh.fine.nodes[1:], mesh.finer(problem.displacements(state, side))
         strains = np.abs(stretch_excess(x, problem.nip, "finite", u)[side] / np.diff(x))
         touching = mesh.acting(state.side(side).pressure) > 0.0
-        most = max(most, float(strains[touching].max(initial=0.0)))
-    return most
+        parts.append(float(strains[touching].max(initial=0.0)))
+    return largest(*parts)

@@ -1,16 +1,11 @@
-"""Friction on the interfaces of a sheet: coefficients and the states of stick and slip."""
+"""Friction on the interfaces of a sheet: its coefficients, and the directions of the shears."""
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rollnip.nip import Nip
 
-Array = NDArray[np.float64]
-
-SIGNS = np.array([0.0, 0.0, 1.0, -1.0])
-"""Sign of the shear for each state of a node, in the order of `State`."""
+SIDE_SIGNS = 1.0, -1.0
+"""Signs of the shear on the upper and lower roller, and of the creep of its surface."""
 
 
 def frictions_of(nip: Nip) -> tuple[float, float]:

@@ -21,7 +21,7 @@ _ALIKE = 1e-4  # relative difference of creepages that the mesh makes between eq
 def grip_of(
     nip: Nip,
     pressed: float,
-    pulls: tuple[float, float],
+    tractions: tuple[float, float],
     sliding: tuple[Array, Array],
     levers: tuple[FaceLevers, FaceLevers] | None = None,
 ) -> Grip:
@@ -31,18 +31,18 @@ def grip_of(
     ----------
     nip : with a sheet.
     pressed : int p dx [N/mm]; at finite strain the load plus the part of it that the shears carry.
-    pulls : T_u and T_l [N/mm].
+    tractions : T_u and T_l [N/mm].
     sliding : see `first_to_slide`; used where the rollers are geared together.
     levers : of the shears on both faces, by which the pull differs from T_u - T_l
         (`rollnip.sheet.tension`); None: neglected.
     """
-    (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), pulls, nip.sheet
+    (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), tractions, nip.sheet
     assert sheet is not None
     first: Side = "upper"
     above = below = kept = 0.0
     if levers is not None:
         above, below = (float(one.pressed @ one.ratios) for one in levers)
-        kept = levers[1].lost
+        kept = levers[1].lever_force
     reach, kept = mu_u * (pressed - above), kept + lower
     if isinstance(nip.tangential, Creepage):
         reach, kept = reach + mu_l * (pressed + below), 0.0

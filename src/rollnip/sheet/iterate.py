@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState
 from rollnip.nip import Nip
-from rollnip.rolling import Displacements
+from rollnip.rolling import Displacements, PairKernels
+from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.zones import SideZones
 
@@ -34,6 +35,11 @@ class InterfaceProblem(Protocol):
     @property
     def frictions(self) -> tuple[float, float]:
         """The friction coefficients of both interfaces."""
+        ...
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """The curvatures of the gaps that both interfaces close [1/mm]."""
         ...
 
     def creeps(self, state: Any, lagged: Any) -> tuple[Array, Array]:
@@ -80,6 +86,10 @@ class SheetTerms(Protocol):
         """Part of the line load that is carried by the shears instead of the pressure [N/mm]."""
         ...
 
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the gap and of the creep of one interface, each (n,) [mm]."""
+        ...
+
 
 ZonesT = TypeVar("ZonesT", bound=SideZones, covariant=True)
 ProblemT = TypeVar("ProblemT", bound=InterfaceProblem, covariant=True)
@@ -123,3 +133,16 @@ class SheetIterate(Generic[ZonesT, ProblemT, StateT, TermsT]):
 
 AnyIterate = SheetIterate[SideZones, InterfaceProblem, InterfaceSolution, SheetTerms]
 """The iterate of a membrane or of a plate."""
+
+
+def kernels_after(before: AnyIterate | None, kernels: PairKernels, side: int = 0) -> PairKernels:
+    """Return influence functions with one mesh's second-order terms of the previous solution.
+
+    Those without second-order terms are returned unchanged.
+    """
+    if kernels.is_fixed:
+        return kernels
+    held = NO_SECOND_ORDER
+    if before is not None:
+        held = before.problem.meshes[side].second_fields(before.state.side(side))
+    return replace(kernels, held=held)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Torque, Traction
@@ -71,7 +72,12 @@ def interpolated(old: Mesh, new: Mesh, clearance: Array, offset: Array) -> tuple
 def pressed_gap(gap: Array, pressure: Array) -> float:
     """Return the largest gap under pressure, weighted by pressure over peak pressure [mm]."""
     peak = float(np.abs(pressure).max())
-    return float(np.abs(gap * pressure).max()) / peak if peak > 0.0 else 0.0
+    return 0.0 if peak == 0.0 else float(np.abs(gap * pressure).max()) / peak
+
+
+def over_load(force: float, load: float) -> float:
+    """Return a force over the load; 0 without pressure, which the contact conditions tell."""
+    return 0.0 if load <= 0.0 else force / load
 
 
 def creep_in_stick(creep: Array, states: States) -> float:
@@ -84,7 +90,7 @@ def creep_in_stick(creep: Array, states: States) -> float:
     begins = np.flatnonzero(sticks & ~np.append(False, sticks[:-1]))
     ends = np.flatnonzero(sticks & ~np.append(sticks[1:], False)) + 1
     runs = (along[begin : end + 1] for begin, end in zip(begins, ends, strict=True))
-    return max((float(np.ptp(run)) for run in runs), default=0.0)
+    return largest(0.0, *(float(np.ptp(run)) for run in runs))
 
 
 def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:

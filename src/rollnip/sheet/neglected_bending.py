@@ -16,6 +16,7 @@ from rollnip._results.records import DeformedSurfaces
 from rollnip.nip import Creepage, Nip
 from rollnip.sheet.bending import mean_tension, spreading_length
 from rollnip.sheet.figures import NAMES, SheetFigures, scales
+from rollnip.sheet.friction import SIDE_SIGNS
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ membrane and as plate (decisions 36 and 42).
 _OF_GEARED = 1.2  # the same for tractions at a given creepage, over the limit of friction
 _WIDTH = 3  # index of the nip width
 _PEAK, _PEAK_ON_RIGID = 4, 6.5  # index of the peak pressure; its change where edges have peaks
-_PULLS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
+_TRACTIONS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
 
 
 def neglected_bending_errors(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
@@ -50,12 +51,12 @@ def neglected_bending_errors(nip: Nip, figures: SheetFigures, wrapped: float) ->
     changes = _BY_LENGTH.copy()
     if nip.upper.is_rigid or nip.lower.is_rigid:
         changes[_PEAK] = _PEAK_ON_RIGID
-    share = spreading_length(nip) / figures.nip_width
-    out = share * changes * scales(nip, figures)
+    ratio = spreading_length(nip) / figures.nip_width
+    out = ratio * changes * scales(nip, figures)
     out[_WIDTH] += wrapped
     if isinstance(nip.tangential, Creepage):  # creepages are given, so tractions change
         friction = min(nip.friction_on("upper"), nip.friction_on("lower"))
-        out[_PULLS] += _OF_GEARED * share * friction * figures.load
+        out[_TRACTIONS] += _OF_GEARED * ratio * friction * figures.load
     return np.asarray(out)
 
 
@@ -87,7 +88,7 @@ def wrapped_length(nip: Nip, surfaces: DeformedSurfaces, edges: tuple[float, flo
     for edge, outward in zip(edges, (-1.0, 1.0), strict=True):
         beyond = np.flatnonzero(outward * (x - edge) >= 0.0)[:: int(outward)]
         away = np.abs(x[beyond] - x[beyond[0]])
-        for side, sign in enumerate((1.0, -1.0)):
+        for side, sign in enumerate(SIDE_SIGNS):
             clear = sign * heights[side][beyond]  # surface height, away from the sheet
             slope = (clear[1] - clear[0]) / away[1]
             path = clear[0] - slope * turning * np.expm1(-away / turning)

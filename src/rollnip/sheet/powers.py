@@ -25,6 +25,7 @@ from rollnip.model import Geometry
 from rollnip.rollers import SIDES
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
 from rollnip.rolling.surface_work import loss_inside, moment
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import AnyIterate
 
 Array = NDArray[np.float64]
@@ -79,10 +80,10 @@ def sheet_powers(
         loss_inside(name, problem.nip, geometry, problem.meshes[side], state.side(side))
         for side, name in enumerate(SIDES)
     ]
-    friction = [lost for lost, _ in slip_works(iterate, geometry, pulls)]
+    slip = [loss for loss, _ in slip_works(iterate, geometry, pulls)]
     return SheetPowers(
-        friction_upper=friction[0],
-        friction_lower=friction[1],
+        friction_upper=slip[0],
+        friction_lower=slip[1],
         lost_upper=lost[0],
         lost_lower=lost[1],
         pull_upper=pulls[0][0],
@@ -98,12 +99,12 @@ def slip_works(iterate: AnyIterate, geometry: Geometry, pulls: Pulls) -> list[tu
     that a surface transmits by its shear; the slip loss changes by the same amount.
     """
     rates, out = rates_of(geometry, sum(iterate.state.creepages)), []
-    for side, ((lost, reversed_slip), sign) in enumerate(
-        zip(smooth_slip_works(iterate), (1.0, -1.0), strict=True)
+    for side, ((loss, reversed_slip), sign) in enumerate(
+        zip(smooth_slip_works(iterate), SIDE_SIGNS, strict=True)
     ):
         whole, smooth = pulls[side]
-        lost += sign * rates[side] * (whole - smooth)
-        out.append((max(lost, 0.0), reversed_slip + max(-lost, 0.0)))
+        loss += sign * rates[side] * (whole - smooth)
+        out.append((max(loss, 0.0), reversed_slip + max(-loss, 0.0)))
     return out
 
 

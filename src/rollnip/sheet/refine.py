@@ -9,8 +9,9 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip._results.records import SolverInfo
-from rollnip.contact import ContactProblem, ContactState
+from rollnip.contact import ContactProblem, Control
 from rollnip.rolling import MeshSolution, RollingContact
 from rollnip.rolling.assemble import LaggedTerms
 from rollnip.sheet.conditions import violation
@@ -85,34 +86,34 @@ class Refined(Generic[T]):
         """Return their errors."""
         return self.errors_by_side[-1]
 
-    def upper_mesh_solution(
-        self,
-        contact: RollingContact,
-        problem: ContactProblem,
-        state: ContactState,
-        terms: tuple[Array, Array],
-    ) -> MeshSolution:
-        """Return the solution in the form of a bare nip's, with the upper interface's tractions.
+    def mesh_solution(self, contact: RollingContact, side: int = 0) -> MeshSolution:
+        """Return the solution in the form of a bare nip's, with the tractions of one interface.
 
-        Parameters
-        ----------
-        contact : the contact solved.
-        problem, state : what a bare nip on the mesh of the upper interface would have.
-        terms : lagged terms of the gap and of the creep of the upper interface, each (n,) [mm].
+        ``contact``: the contact solved; ``side``: 0 the upper interface and 1 the lower one, which
+        has a mesh of its own for a plate only.
         """
-        iterate, (clearance, offset) = self.iterate, terms
-        mesh = iterate.problem.meshes[0]
+        iterate, problem = self.iterate, self.iterate.problem
+        mesh, (clearance, offset) = problem.meshes[side], iterate.lagged.of_side(side)
+        nothing, creepage = np.zeros(mesh.inner.size), sum(iterate.state.creepages)
+        alone = ContactProblem(
+            x=mesh.inner,
+            weights=mesh.weights,
+            clearance=0.5 * problem.curvatures[side] * mesh.inner**2 + clearance,
+            influence=mesh.influence,
+            creep_length=mesh.dx,
+            creep_offset=nothing,
+            friction=problem.frictions[side],
+            control=Control(None, iterate.state.approach, None, creepage),
+        )
         return MeshSolution(
             contact=contact,
             mesh=mesh,
-            problem=problem,
-            state=state,
-            lagged=LaggedTerms(
-                clearance, np.zeros(mesh.inner.size), offset, iterate.lagged.traction
-            ),
-            zones=iterate.zones.upper.zones,
-            figures=self.figures.watched,
-            error=self.errors.watched,
+            problem=alone,
+            state=iterate.state.side(side),
+            lagged=LaggedTerms(clearance, nothing, offset, iterate.lagged.traction),
+            zones=iterate.zones.sides[side].zones,
+            figures=self.figures_by_side[side].watched,
+            error=self.errors_by_side[side].watched,
             steps=iterate.steps,
             settled=iterate.settled,
             geometry_change=iterate.change,
@@ -209,13 +210,13 @@ def _excess(
     formulation: Formulation[IterateT], here: SizeOfMesh, errors: tuple[SheetFigures, ...]
 ) -> float:
     """Return the largest error over its allowed value, of the figures with a tolerance."""
-    contact, most = formulation.contact, 0.0
+    contact, parts = formulation.contact, []
     allowances = formulation.peak_tolerances
     for figures, error, allowed in zip(here.figures, errors, allowances, strict=True):
         values = error.values.copy()
         values[_PEAK] *= contact.tolerance / allowed
-        most = max(most, ratio(contact.nip, figures, SheetFigures(values)))
-    return most / contact.tolerance
+        parts.append(ratio(contact.nip, figures, SheetFigures(values)))
+    return max(parts) / contact.tolerance
 
 
 def _with_same_zones(
@@ -264,7 +265,7 @@ def _with_outside_check(
     formulation: Formulation[IterateT], refined: Refined[IterateT]
 ) -> Refined[IterateT]:
     """Return a solution whose residual and errors include the check outside the contact."""
-    left = max(refined.residual, formulation.overlap(refined.iterate))
+    left = largest(refined.residual, formulation.overlap(refined.iterate))
     return with_power_errors(formulation, replace(refined, residual=left))
 
 
@@ -296,7 +297,7 @@ def on_last_mesh(
 
     ``left``: residual of the gap and creep conditions.
     """
-    left = max(left, violation(iterate), formulation.overlap(iterate))
+    left = largest(left, violation(iterate), formulation.overlap(iterate))
     figures = formulation.figures(iterate)
     found = replace(refined, iterate=iterate, figures_by_side=figures, residual=left)
     return with_power_errors(formulation, found)

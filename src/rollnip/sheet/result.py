@@ -4,23 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._results.records import Zone
 from rollnip._sealed import Sealed
-from rollnip.contact import ContactZone, Layout, State
+from rollnip.contact import State
 from rollnip.rollers import Side
 from rollnip.rolling import MeshSolution
 
 Array = NDArray[np.float64]
-_KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
-    State.STICK: ("stick", None),
-    State.SLIP_PLUS: ("slip", -1),
-    State.SLIP_MINUS: ("slip", 1),
-}
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -150,17 +144,7 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
     return slipping / (zones[-1].stop - zones[0].start)
 
 
-def pull_in_slip(one: MeshSolution) -> float:
+def traction_in_slip(one: MeshSolution) -> float:
     """Return int |q| dx over the slip zones of an interface [N/mm]."""
     slips = one.state.states > State.STICK
     return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))
-
-
-def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
-    """Return which places lie in a zone."""
-    return np.asarray((x >= zone.start) & (x <= zone.stop))
-
-
-def zones_of(layout: Layout) -> tuple[Zone, ...]:
-    """Return the zones of one interface from the trailing to the leading edge."""
-    return tuple(Zone(z.start, z.stop, *_KINDS[z.state]) for z in layout.zones)

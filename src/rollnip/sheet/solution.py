@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isinf, nan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._results.profiles import fine_points, surface_strain
+from rollnip._largest import largest
+from rollnip._results.profiles import fine_points, slip_in_zones, surface_strain
 from rollnip._results.records import DeformedSurfaces, Profiles, Zone
-from rollnip.contact import State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
@@ -20,28 +21,24 @@ from rollnip.rolling import Displacements, MeshSolution, Powers, claims
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.kinematics import stretch_excess, surface_depths
 from rollnip.rolling.power_balance import rates_of
-from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.checks import not_prescribed
 from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
-from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.friction import SIDE_SIGNS, frictions_of
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged_terms import sheet_rate
 from rollnip.sheet.local_deformation import thickness_loss
-from rollnip.sheet.membrane.formulation import traction_slope
 from rollnip.sheet.membrane.lagged_terms import face_levers
+from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.search import MembraneIterate
-from rollnip.sheet.membrane.system import MembraneState, membrane_displacements
+from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.neglected_bending import neglected_bending_errors, wrapped_length
-from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
     SheetProfiles,
     SheetResult,
-    inside_zone,
-    pull_in_slip,
     slip_share_of,
-    zones_of,
+    traction_in_slip,
 )
 from rollnip.sheet.tension import FaceLevers
 from rollnip.smooth import SmoothSolution
@@ -72,17 +69,17 @@ class SheetSolution(SmoothSolution):
     @property
     def creepage(self) -> float:
         """Creepage xi = (V_u - V_l)/V, the sum of those of both interfaces."""
-        return self._state.creepage + self._state.creepage_lower
+        return sum(self._state.creepages)
 
     @property
     def traction(self) -> float:
         """Traction T_l on the lower roller [N/mm]; T_u is ``sheet.traction_upper``."""
-        return self._figure("traction_lower")
+        return self.refined.figures.traction_lower
 
     @property
     def peak_pressure_x(self) -> float:
         """Place of the peak pressure [mm]."""
-        return self._figure("peak_pressure_x")
+        return self.refined.figures.peak_pressure_x
 
     @property
     def power_in(self) -> float | None:
@@ -92,7 +89,7 @@ class SheetSolution(SmoothSolution):
         """
         if self.nip.speed is None:
             return None
-        axles, upper, lower = self._spent.as_bare, self._figure("traction_upper"), self.traction
+        axles, upper, lower = self._powers, self.refined.figures.traction_upper, self.traction
         rate = rates_of(self.model.geometry, self.creepage)
         creep = 0.5 * self.creepage if self.model.geometry == "linear" else 0.0
         work = rate[0] * axles.driving_upper + rate[1] * axles.driving_lower
@@ -103,7 +100,7 @@ class SheetSolution(SmoothSolution):
         speed = nan if nip.speed is None else nip.speed
         load, length = self.load, self.nip_width
         lost = mine["lost_upper"] + mine["lost_lower"]
-        out |= {name: max(out[name], mine[name]) for name in not_prescribed(nip)}
+        out |= {name: largest(out[name], mine[name]) for name in not_prescribed(nip)}
         for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
             off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
             out[f"torque_{side}"] = nan if isinf(roller.radius) else roller.radius * off
@@ -114,7 +111,7 @@ class SheetSolution(SmoothSolution):
             "traction": traction,
             "dissipation_friction": speed * (mine["friction_upper"] + mine["friction_lower"]),
             "dissipation_viscous": speed * lost,
-            "rolling_resistance": lost / load,
+            "rolling_resistance": (lost + self.rolling_resistance * out["load"]) / load,
             "peak_pressure_x": mine["peak_pressure_x"],
             "mean_pressure": load / length * (out["nip_width"] / length + out["load"] / load),
             "dwell_time": out["nip_width"] / speed,
@@ -156,29 +153,28 @@ class SheetSolution(SmoothSolution):
 
     @cached_property
     def _sheet(self) -> SheetResult:
-        state, speed, half = self._state, self.nip.speed, 0.5 * self.creepage
-        rate = sheet_rate(state.creepage, state.creepage_lower)
-        spent = self._spent
+        (upper, lower), speed, half = self._state.creepages, self.nip.speed, 0.5 * self.creepage
+        figures = self.refined.figures
 
         def power(value: float) -> float | None:
             return None if speed is None else speed * value
 
-        pulls = self._figure("traction_upper"), self.traction
+        tractions = figures.traction_upper, figures.traction_lower
         pressed = self.load + self.refined.iterate.lagged.lean
         return SheetResult(
-            creepage_upper=state.creepage,
-            creepage_lower=state.creepage_lower,
-            feed_upper=-state.creepage / (1.0 + half),
-            feed_lower=state.creepage_lower / (1.0 - half),
-            speed=power(rate),
-            traction_upper=self._figure("traction_upper"),
-            traction_lower=self.traction,
-            tension_max=self._figure("tension_max"),
-            tension_min=self._figure("tension_min"),
-            strain_max=self._figure("strain_max"),
-            friction_upper=power(spent.friction_upper),
-            friction_lower=power(spent.friction_lower),
-            power=power(spent.into_sheet),
+            creepage_upper=upper,
+            creepage_lower=lower,
+            feed_upper=-upper / (1.0 + half),
+            feed_lower=lower / (1.0 - half),
+            speed=power(sheet_rate(upper, lower)),
+            traction_upper=tractions[0],
+            traction_lower=tractions[1],
+            tension_max=figures.tension_max,
+            tension_min=figures.tension_min,
+            strain_max=figures.strain_max,
+            friction_upper=power(figures.friction_upper),
+            friction_lower=power(figures.friction_lower),
+            power=power(figures.into_sheet),
             slip_share_upper=slip_share_of(self._zones(0)),
             slip_share_lower=slip_share_of(self._zones(1)),
             zones_lower=self._zones(1),
@@ -186,19 +182,29 @@ class SheetSolution(SmoothSolution):
             bends=self.bends,
             nip_width_lower=self.on_lower_side[0],
             peak_pressure_lower=self.on_lower_side[1],
-            grip=grip_of(self.nip, pressed, pulls, self._sliding(), self._levers),
+            grip=grip_of(self.nip, pressed, tractions, self._sliding(), self._levers),
             profiles=self._sheet_profiles(),
             error=self.sheet_errors(),
         )
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        shear = self.refined.iterate.problem.mesh.acting(self._state.shear_lower)
-        pressure = self._at(x, self.final.pressure)
+        below = self._of_side(1)
+        return SheetProfiles(
+            x,
+            shear_lower=self._at(x, below.shear, 1),
+            tension=self._tension(x),
+            strain=self._strain_of_sheet(x),
+            slip_velocity_lower=self._slip(1),
+            pressure_lower=self._at(x, below.pressure, 1),
+            height=self._height,
+        )
+
+    @property
+    def _height(self) -> Array:
+        """Height of the sheet's path at ``_points``, without its thickness [mm]."""
         surfaces = self.deformed_surfaces
-        lower, height = self._at(x, shear), 0.5 * (surfaces.upper + surfaces.lower)
-        tension, strain = self._tension(x), self._strain_of_sheet(x)
-        return SheetProfiles(x, lower, tension, strain, self._slip(1), pressure, height)
+        return np.asarray(0.5 * (surfaces.upper + surfaces.lower))
 
     @property
     def bends(self) -> bool:
@@ -219,17 +225,16 @@ class SheetSolution(SmoothSolution):
 
     def sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet by name."""
-        mine, state, half = self._errors, self._state, 0.5 * self.creepage
+        mine, creepages, half = self._errors, self._state.creepages, 0.5 * self.creepage
         speed = nan if self.nip.speed is None else self.nip.speed
         names = ("creepage_upper", "creepage_lower", "traction_upper", "traction_lower")
         out = {name: mine[name] for name in (*names, "tension_max", "tension_min", "strain_max")}
         out |= {name: speed * mine[name] for name in ("friction_upper", "friction_lower")}
         out["nip_width_lower"], out["peak_pressure_lower"] = self._lower_errors
         both = mine["creepage_upper"] + mine["creepage_lower"]
-        out["speed"], out["power"] = 0.5 * speed * both, speed * mine["into_sheet"]
+        out |= {"speed": 0.5 * speed * both, "power": speed * mine["into_sheet"]}
         out["grip_reserve"] = grip_error(self.nip, mine)
-        rates = ("upper", 1.0 + half, state.creepage), ("lower", 1.0 - half, state.creepage_lower)
-        for side, rate, creepage in rates:
+        for side, rate, creepage in zip(SIDES, (1.0 + half, 1.0 - half), creepages, strict=True):
             out[f"feed_{side}"] = mine[f"creepage_{side}"] / rate + 0.5 * abs(creepage) * both
         return out
 
@@ -241,7 +246,7 @@ class SheetSolution(SmoothSolution):
         if isinstance(self.nip.tangential, Creepage) and self.model.geometry in FINITE:
             passed = mine["creepage"] * self._traction_slope()
             sides = ("traction_upper", "traction_lower")
-            mine |= {name: max(mine[name], passed) for name in sides}
+            mine |= {name: largest(mine[name], passed) for name in sides}
         if isinstance(self.nip.tangential, Creepage | Torque):
             return mine
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
@@ -252,9 +257,25 @@ class SheetSolution(SmoothSolution):
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 
+    @property
+    def _system(self) -> Any:
+        """The factorised linear system of the solution."""
+        iterate = self.refined.iterate
+        return FactorisedMembrane.of(iterate.problem, iterate.state.both_states)
+
     def _traction_slope(self) -> float:
-        """Return the derivative of both tractions by the creepage, see `traction_slope` [N/mm]."""
-        return traction_slope(self.refined.iterate)
+        """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
+
+        It turns an error of the creepage at a given traction into one of the traction at a given
+        creepage, as without a sheet.
+        """
+        system, lagged, tractions = self._system, self.refined.iterate.lagged, []
+        for creepage in (0.0, 1.0):  # the tractions are linear in it
+            nip = replace(self.nip, tangential=Creepage(creepage))
+            one = replace(system, problem=replace(system.problem, nip=nip))
+            shear = one.solved(lagged).side(1).shear
+            tractions.append(float(system.problem.meshes[1].weights @ shear))
+        return abs(tractions[1] - tractions[0])
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, at least the uncertainty that the model's own order leaves."""
@@ -272,12 +293,11 @@ class SheetSolution(SmoothSolution):
         for number, (side, loss) in enumerate(zip(SIDES, self.refined.cut_losses, strict=True)):
             # An error of the creepage changes the slip velocity, and so the power of the shears
             # in slip, which may cancel in the traction.
-            pull = max(
-                abs(getattr(figures, f"traction_{side}")), pull_in_slip(self._of_side(number))
-            )
-            passed = power_left(out[f"creepage_{side}"], pull, self.final)
+            in_slip = traction_in_slip(self._of_side(number))
+            traction = largest(abs(getattr(figures, f"traction_{side}")), in_slip)
+            passed = power_left(out[f"creepage_{side}"], traction, self.final)
             for name in (f"friction_{side}", f"pull_{side}"):
-                out[name] = max(out[name], SHARE_OF_CUT * loss, passed)
+                out[name] = largest(out[name], SHARE_OF_CUT * loss, passed)
         return out
 
     @cached_property
@@ -286,35 +306,28 @@ class SheetSolution(SmoothSolution):
         return self._zones(0)
 
     def _zones(self, side: int) -> tuple[Zone, ...]:
-        return zones_of(self.refined.iterate.zones.sides[side])
+        return Zone.of(self.refined.iterate.zones.sides[side].zones)
 
     @property
     def _state(self) -> MembraneState:
         return self.refined.iterate.state
 
-    @property
-    def _spent(self) -> SheetPowers:
-        return self.refined.figures.powers
-
-    def _figure(self, name: str) -> float:
-        return float(self.refined.figures.values[NAMES.index(name)])
-
     @cached_property
     def _powers(self) -> Powers:
-        return self._spent.as_bare
+        return self.refined.figures.powers.as_bare
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Return the tractions on one surface in its own frame: (q_u, p) above, (-q_l, p) below."""
-        mesh, state = self.refined.iterate.problem.mesh, self._state
-        shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
-        return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
+        side = 0 if roller == "upper" else 1
+        one = self._of_side(side)
+        return SurfaceTractions.on_inner(one.nodes, SIDE_SIGNS[side] * one.shear, one.pressure)
 
     def _of_side(self, side: int) -> MeshSolution:
-        """Return the last round in the form of one interface."""
-        return replace(self.final, state=self._state.side(side))
+        """Return the solution in the form of one interface."""
+        return self.final if side == 0 else replace(self.final, state=self._state.side(side))
 
-    def _at(self, x: Array, traction: Array) -> Array:
-        return np.interp(x, self.final.x, traction, left=0.0, right=0.0)
+    def _at(self, x: Array, traction: Array, side: int = 0) -> Array:
+        return np.interp(x, self._of_side(side).x, traction, left=0.0, right=0.0)
 
     def _strain(self, x: Array, side: int) -> Array:
         return surface_strain(x, self._of_side(side), side=SIDES[side])
@@ -323,9 +336,9 @@ class SheetSolution(SmoothSolution):
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
         iterate, state = self.refined.iterate, self._state
         nodes, problem = self.final.nodes, iterate.problem
-        pull = np.zeros(nodes.size)
-        pull[1:-1] = problem.mesh.acting(state.shear - state.shear_lower)
-        pieces = 0.5 * problem.arcs * np.diff(nodes) * (pull[1:] + pull[:-1])
+        shear = np.zeros(nodes.size)
+        shear[1:-1] = problem.mesh.acting(state.shear - state.shear_lower)
+        pieces = 0.5 * problem.arcs * np.diff(nodes) * (shear[1:] + shear[:-1])
         beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
         return np.asarray(iterate.lagged.known.at(x) - np.interp(x, nodes, beyond))
 
@@ -337,9 +350,7 @@ class SheetSolution(SmoothSolution):
 
     def _thinned(self, x: Array) -> Array:
         """Return the loss of the sheet's thickness under load [mm]."""
-        sheet = self.nip.sheet
-        assert sheet is not None
-        acting = self.refined.iterate.problem.mesh.acting(self._state.pressure)
+        sheet, acting = self.refined.iterate.problem.sheet, self.final.pressure
         thinner = thickness_loss(sheet, x, self.final.nodes, acting[:, None])[:, 0]
         return thinner + sheet.stretch_by_pressure * self._tension(x)
 
@@ -348,10 +359,7 @@ class SheetSolution(SmoothSolution):
         """Places in and outside the nip, and the displacements of both surfaces there."""
         x, kernels = fine_points(self.final), self.final.contact.kernels
         mesh, state = self.refined.iterate.problem.mesh, self._state
-        acting = np.stack(
-            [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
-        )
-        u = membrane_displacements(pair_displacements(kernels, x, mesh.fine.nodes, acting))
+        u = mesh.linear_displacements_at(x, state)
         if kernels.is_linear:
             return x, u
         held = kernels.held or mesh.second_fields(state)
@@ -379,18 +387,13 @@ class SheetSolution(SmoothSolution):
         speed = self.nip.speed
         if speed is None:
             return None
-        (x, u), iterate = self._points, self.refined.iterate
-        dx, state = np.diff(x), self._state
-        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
+        x, u = self._points
+        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / np.diff(x)
         strain = self._strain_of_sheet(x)
-        mean = 0.5 * (strain[1:] + strain[:-1])
-        sign = 1.0 if side == 0 else -1.0
-        creepage = state.creepage if side == 0 else state.creepage_lower
-        rate = creepage + sign * (stretch - mean)
-        out = np.full(x.size, np.nan)
-        middle = 0.5 * (x[1:] + x[:-1])
-        for zone in iterate.zones.sides[side].zones:
-            within = inside_zone(x, zone)
-            sticks = zone.state == State.STICK
-            out[within] = 0.0 if sticks else -speed * np.interp(x[within], middle, rate)
-        return out
+        excess = stretch - 0.5 * (strain[1:] + strain[:-1])
+        rate = self._state.creepages[side] + SIDE_SIGNS[side] * excess + self._bent(x)
+        return slip_in_zones(x, -speed * rate, self.refined.iterate.zones.sides[side].zones)
+
+    def _bent(self, _: Array) -> Array:
+        """Return the strain of the lower face by bending, in the intervals between given places."""
+        return np.zeros(1)

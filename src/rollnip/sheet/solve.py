@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter
 
-import numpy as np
-
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
-from rollnip.model import SIMPLER, Geometry, Model
+from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
-from rollnip.rolling import MeshSolution, RollingContact
+from rollnip.rolling import RollingContact
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.checks import (
     compression_reservations,
@@ -27,7 +23,7 @@ from rollnip.sheet.checks import (
 )
 from rollnip.sheet.membrane.formulation import MembraneFormulation
 from rollnip.sheet.membrane.search import MembraneIterate
-from rollnip.sheet.one_geometry import solve_in_geometry
+from rollnip.sheet.one_geometry import solve_until_settled
 from rollnip.sheet.plate.solve import membrane_limit, solve_plate
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.solution import SheetSolution
@@ -97,7 +93,7 @@ def _solve_as_membrane(
     version, no_plate = record
     contact, refined, on_geometry = _solve_with_fallback(nip, model, cache)
     require_grip(nip, refined)
-    final = membrane_mesh_solution(contact, refined)
+    final = refined.mesh_solution(contact)
     converged, status = (False, no_plate[0].text) if no_plate else sheet_verdict(refined, final)
     strains = StrainSizes.of(final)
     solution = SheetSolution(
@@ -126,20 +122,14 @@ def _solve_with_fallback(
 ) -> tuple[RollingContact, Refined[MembraneIterate], tuple[Reservation, ...]]:
     """Return the contact solved, its solution, and reservations on its model.
 
-    Where the asked geometry has no settled solution, simpler ones are tried in turn.
+    Where no geometry has a settled solution, it is that in the simplest one.
     """
-    unsolved: list[Geometry] = []
-    while True:
-        contact, refined = solve_in_geometry(MembraneFormulation, nip, model, cache)
-        simpler = SIMPLER.get(model.geometry)
-        if refined is not None and (simpler is None or refined.iterate.settled):
-            reservations = simpler_geometry_reservations(unsolved, model.geometry)
-            return contact, refined, reservations
-        if simpler is None:
-            require_torque(nip, 1.0)
-            raise ConvergenceError(_none_found(nip))
-        unsolved.append(model.geometry)
-        model = replace(model, geometry=simpler)
+    *before, (contact, refined) = solve_until_settled(MembraneFormulation, nip, model, cache)
+    if refined is None:
+        require_torque(nip, 1.0)
+        raise ConvergenceError(_none_found(nip))
+    unsolved = [one.contact.geometry for one in before]
+    return contact, refined, simpler_geometry_reservations(unsolved, contact.geometry)
 
 
 def _none_found(nip: Nip) -> str:
@@ -152,27 +142,6 @@ def _none_found(nip: Nip) -> str:
             "try a larger load or other tensions."
         )
     return none_found(nip, otherwise)
-
-
-def membrane_mesh_solution(
-    contact: RollingContact, refined: Refined[MembraneIterate]
-) -> MeshSolution:
-    """Return a membrane solution in the form of a bare nip's, with the shear of the upper side."""
-    nip, iterate = contact.nip, refined.iterate
-    mesh, lagged = iterate.problem.mesh, iterate.lagged
-    total = iterate.state.creepage + iterate.state.creepage_lower
-    problem = ContactProblem(
-        x=mesh.inner,
-        weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + lagged.clearance,
-        influence=mesh.influence,
-        creep_length=mesh.dx,
-        creep_offset=np.zeros(mesh.inner.size),
-        friction=nip.friction,
-        control=Control(load=None, approach=iterate.state.approach, traction=None, creepage=total),
-    )
-    terms = lagged.clearance, lagged.offsets[0]
-    return refined.upper_mesh_solution(contact, problem, iterate.state, terms)
 
 
 def _reservations(nip: Nip, refined: Refined[MembraneIterate]) -> tuple[Reservation, ...]:

@@ -51,12 +51,12 @@ class FaceLevers:
     ratios: Array
 
     @property
-    def lost(self) -> float:
-        """Return the sum of forces times ratios [N/mm]."""
+    def lever_force(self) -> float:
+        """Return what the levers take of the tension: the sum of forces times ratios [N/mm]."""
         return float(self.forces @ self.ratios)
 
-    def lost_beyond(self, x: Array) -> Array:
-        """Return the part of ``lost`` that lies beyond given places, (m,) [N/mm]."""
+    def lever_force_beyond(self, x: Array) -> Array:
+        """Return the part of ``lever_force`` that lies beyond given places, (m,) [N/mm]."""
         beyond = np.append(np.cumsum((self.forces * self.ratios)[::-1])[::-1], 0.0)
         return np.asarray(np.interp(x, self.places, beyond))
 
@@ -104,7 +104,7 @@ class KnownTension:
         ``bends``: whether a bending moment goes with the curvature.
         """
         places = np.unique(np.concatenate([one.places for one in faces]))
-        added = faces[0].lost_beyond(places) + faces[1].lost_beyond(places)
+        added = faces[0].lever_force_beyond(places) + faces[1].lever_force_beyond(places)
         if bends:
             upper, lower = (one.ratio_at(places) for one in faces)
             on_upper, on_lower = (one.holds(places) for one in faces)
@@ -112,7 +112,8 @@ class KnownTension:
             ratio = np.where(on_lower, np.where(on_upper, 0.5 * (upper + lower), lower), upper)
             added -= ratio**2 / (6.0 * sheet.stretch_by_tension)
         inlet, pull = sheet.tension_in, sheet.tension_in - sheet.tension_out
-        return cls(inlet, places, added, pull + faces[0].lost + faces[1].lost)
+        change = pull + faces[0].lever_force + faces[1].lever_force
+        return cls(inlet, places, added, change)
 
     def change_from(self, old: KnownTension) -> float:
         """Return the largest change since an older one [N/mm]."""

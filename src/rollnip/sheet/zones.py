@@ -80,8 +80,8 @@ def within_zone_middles(breaks: Array, proposed: Array, edges: tuple[float, floa
     out[1:-1] = np.clip(wanted[1:-1], middles[:-1], middles[1:])
     out[0], out[-1] = edges
     if not np.all(np.diff(out) > 0.0):  # an edge moved past a transition: keep relative places
-        share = (breaks - breaks[0]) / (breaks[-1] - breaks[0])
-        out = edges[0] + share * (edges[1] - edges[0])
+        relative = (breaks - breaks[0]) / (breaks[-1] - breaks[0])
+        out = edges[0] + relative * (edges[1] - edges[0])
     return np.asarray(out)
 
 

@@ -12,6 +12,7 @@ from rollnip.nip import Creepage, LineLoad
 from rollnip.sheet.complementarity import (
     LEAST_PRESSURE,
     indentation,
+    next_slip,
     with_stick_between_slips,
 )
 from rollnip.sheet.membrane.linear_system import FactorisedMembrane
@@ -63,12 +64,12 @@ def settled_slip(
 
     In each step all nodes take the states that creep and shear call for. Transitions move by a node
     at a time, so there are at most as many steps as nodes. ``state``: a solution close to it;
-    ``slack``: see `updated_states`.
+    ``slack``: see `wanted_slip`.
     """
     tried: set[bytes] = set()
     for steps in range(1, state.states.size):
         creeps = problem.creeps(state, lagged)
-        wanted = updated_states(problem, state, creeps, slack)
+        wanted = wanted_slip(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
         if wanted.tobytes() in tried:
@@ -81,28 +82,16 @@ def settled_slip(
     return None
 
 
-def updated_states(
+def wanted_slip(
     problem: MembraneProblem, state: MembraneState, creeps: tuple[Array, Array], slack: float
 ) -> States:
     """Return the states of both interfaces that follow from creep and shear, (2, n).
 
-    Free nodes and nodes under tension keep their states. A node also keeps its state while its
-    shear is within ``slack`` times the bound at the peak pressure.
+    ``slack``: pressure that counts as rounding, over the highest one; see `next_slip`.
     """
-    states = state.both_states
     little = slack * float(np.abs(state.pressure).max())
-    kept = (states[0] != State.FREE) & (state.pressure >= -little)
-    out = states.copy()
-    for side, friction in enumerate(problem.frictions):
-        sought = state.shears[side] - creeps[side] / problem.own_creep[side]
-        bound = friction * np.maximum(state.pressure, 0.0)
-        room = friction * little
-        plus = sought > bound + np.where(states[side] == State.SLIP_PLUS, -room, room)
-        minus = sought < -bound - np.where(states[side] == State.SLIP_MINUS, -room, room)
-        out[side, kept] = State.STICK
-        out[side, kept & plus] = State.SLIP_PLUS
-        out[side, kept & minus] = State.SLIP_MINUS
-    return out
+    sides = enumerate(zip(creeps, problem.own_creep, problem.frictions, strict=True))
+    return np.stack([next_slip(state.side(side), *one, little) for side, one in sides])
 
 
 def _inequalities(
@@ -124,8 +113,8 @@ def _inequalities(
         matrix[-3, :n], right[-3] = weights, -(nip.normal.load + lagged.lean)
     else:
         matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
-    pulls = problem.force_weights
-    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3] = pulls, -pulls
+    forces = problem.force_weights
+    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3] = forces, -forces
     right[-2] = -lagged.known.change
     if isinstance(nip.tangential, Creepage):
         matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.model import Geometry
-from rollnip.nip import Creepage
 from rollnip.rolling import RollingContact
 from rollnip.rolling.mesh_solution import peak_pressure
 from rollnip.sheet.figures import SheetFigures
@@ -21,7 +20,6 @@ from rollnip.sheet.membrane.lagged_terms import (
     pulls_of,
     residual_with_terms,
 )
-from rollnip.sheet.membrane.linear_system import FactorisedMembrane
 from rollnip.sheet.membrane.search import MembraneIterate, MembraneSearch, overlap
 from rollnip.sheet.membrane.system import MembraneMesh
 from rollnip.sheet.powers import Pulls, sheet_powers
@@ -82,7 +80,7 @@ class MembraneFormulation:
 
     def overlap(self, iterate: MembraneIterate) -> float:
         """Return the relative overlap outside the contact, or the relative tension in it."""
-        return overlap(iterate, self.contact.kernels, self.contact.geometry)
+        return overlap(iterate, self.contact.geometry)
 
     def with_corrections(self, iterate: MembraneIterate) -> MembraneIterate:
         """Return a solution with lagged terms from the corrections of the contact."""
@@ -125,19 +123,4 @@ def _into_sheet(iterate: MembraneIterate, geometry: Geometry) -> float:
     taken = rate * float(pushed.sum())
     if geometry == "linear":
         return taken + float(pushed @ strain)
-    return taken + rate * (float(pushed @ strain) - sum(one.lost for one in faces))
-
-
-def traction_slope(iterate: MembraneIterate) -> float:
-    """Return the derivative of both tractions by the creepage, for given nodal states [N/mm].
-
-    It turns an error of the creepage at a given traction into one of the traction at a given
-    creepage, as without a sheet.
-    """
-    tractions = []
-    for creepage in (0.0, 1.0):  # the tractions are linear in it
-        nip = replace(iterate.problem.nip, tangential=Creepage(creepage))
-        problem = replace(iterate.problem, nip=nip)
-        found = FactorisedMembrane.of(problem, iterate.state.both_states).solved(iterate.lagged)
-        tractions.append(float(problem.mesh.weights @ found.shear_lower))
-    return abs(tractions[1] - tractions[0])
+    return taken + rate * (float(pushed @ strain) - sum(one.lever_force for one in faces))

@@ -16,13 +16,14 @@ from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.kinematics import arc_ratio
 from rollnip.rolling.surface_work import mean_shear
+from rollnip.sheet.figures import scale_of_creepages
 from rollnip.sheet.lagged_terms import (
     creep_in_stick,
     has_no_terms,
     initial_traction,
+    over_load,
     pressed_gap,
     sheet_rate,
     traction_for_torque,
@@ -76,14 +77,13 @@ def change_of_terms(
     strain = nip.curvature * half
     approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
     drift = new.offsets - old.offsets
-    rough = max(sqrt(float(row @ (row / mesh.dx)) / (2.0 * half)) for row in drift)
-    creepage = max(abs(state.creepage), abs(state.creepage_lower))
-    scale = scale_of_creepage(creepage, strain)
-    changes = [float(np.abs(new.clearance - old.clearance).max()) / approach, rough / scale]
+    scale = scale_of_creepages(state.creepages, strain)
+    changes = [sqrt(float(row @ (row / mesh.dx)) / (2.0 * half)) / scale for row in drift]
+    changes.append(float(np.abs(new.clearance - old.clearance).max()) / approach)
     changes.append(_known_change(new, old, problem, state))
     if new.traction is not None and old.traction is not None:
         load = float(mesh.weights @ state.pressure)
-        changes.append(abs(new.traction - old.traction) / (strain * load))
+        changes.append(over_load(abs(new.traction - old.traction), strain * load))
     return largest(*changes)
 
 
@@ -100,8 +100,7 @@ def residual_with_terms(
     nip, mesh = problem.nip, problem.mesh
     half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
-    creepage = max(abs(state.creepage), abs(state.creepage_lower))
-    scale = scale_of_creepage(creepage, nip.curvature * half)
+    scale = scale_of_creepages(state.creepages, nip.curvature * half)
     parts = [pressed_gap(new.clearance - old.clearance, state.pressure) / approach]
     for states, drift in zip(state.both_states, new.offsets - old.offsets, strict=True):
         parts.append(creep_in_stick(drift, states) / (2.0 * half * scale))
@@ -113,7 +112,7 @@ def _known_change(
 ) -> float:
     """Return the change of tension due to the curved path, over the load."""
     load = float(problem.mesh.weights @ state.pressure)
-    return new.known.change_from(old.known) / load if load > 0.0 else 0.0
+    return over_load(new.known.change_from(old.known), load)
 
 
 def path_slope_changes(problem: MembraneProblem, u: Displacements) -> Array:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import State, States
+from rollnip.contact.problem import shear_signs
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.lu import LUFactors
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState, MembraneTerms
 
@@ -67,7 +67,7 @@ def _unknown_indices(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]
 
 def _slip_ratios(problem: MembraneProblem, states: States) -> Array:
     """Return shear over pressure where the interfaces slip, 0 elsewhere, (2, n)."""
-    return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
+    return np.asarray(np.array(problem.frictions)[:, None] * shear_signs(states))
 
 
 def _matrix(problem: MembraneProblem, states: States) -> Array:

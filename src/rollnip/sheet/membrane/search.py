@@ -28,20 +28,18 @@ from rollnip.contact import (
 )
 from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import Geometry
-from rollnip.rolling import PairKernels, RollingContact, surface_depths
-from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling import RollingContact, surface_depths
 from rollnip.rolling.kinematics import arc_ratio
-from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
 from rollnip.sheet.formulation import FIRST_SIZE
-from rollnip.sheet.iterate import SheetIterate
+from rollnip.sheet.iterate import SheetIterate, kernels_after
 from rollnip.sheet.lagged_terms import has_no_terms, interpolated, traction_within_friction
 from rollnip.sheet.local_deformation import thickness_loss
 from rollnip.sheet.membrane.complementarity import (
     settled_slip,
     solve_complementarity,
-    updated_states,
+    wanted_slip,
 )
 from rollnip.sheet.membrane.lagged_terms import (
     change_of_terms,
@@ -54,7 +52,6 @@ from rollnip.sheet.membrane.system import (
     MembraneProblem,
     MembraneState,
     MembraneTerms,
-    membrane_displacements,
 )
 from rollnip.sheet.membrane.zones import MembraneZones
 from rollnip.sheet.secant import SecantSteps
@@ -207,7 +204,7 @@ class MembraneSearch:
     ) -> MembraneProblem:
         """Assemble the problem on a mesh with nodes at the zone ends."""
         nodes = cosine_nodes(zones.breaks, *shape)
-        kernels = self._kernels_for(before)
+        kernels = kernels_after(before, self.contact.kernels)
         mesh = MembraneMesh.on(nodes, kernels, subdivided(nodes, *shape))
         bends = before is not None and self.contact.geometry != "linear"
         return MembraneProblem.on(
@@ -223,15 +220,6 @@ class MembraneSearch:
         ratio = arc_ratio(x, self.contact.nip, self.contact.geometry, u)
         places = 0.5 * (mesh.fine.nodes[1:] + mesh.fine.nodes[:-1])
         return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
-
-    def _kernels_for(self, before: MembraneIterate | None) -> PairKernels:
-        """Return influence functions with second-order terms of the previous solution, if any."""
-        if self.contact.kernels.is_fixed:
-            return self.contact.kernels
-        held = NO_SECOND_ORDER
-        if before is not None:
-            held = before.problem.mesh.second_fields(before.state)
-        return replace(self.contact.kernels, held=held)
 
     def _solve_on_mesh(
         self,
@@ -292,7 +280,7 @@ class _ZonesByStates:
     Attributes
     ----------
     iterate : the solution.
-    slack : see `updated_states`.
+    slack : see `wanted_slip`.
     """
 
     iterate: MembraneIterate
@@ -301,7 +289,7 @@ class _ZonesByStates:
     @cached_property
     def _wanted(self) -> States:
         iterate = self.iterate
-        return updated_states(iterate.problem, iterate.state, iterate.creeps, self.slack)
+        return wanted_slip(iterate.problem, iterate.state, iterate.creeps, self.slack)
 
     @cached_property
     def _consistent_zones(self) -> MembraneZones | None:
@@ -337,20 +325,19 @@ class _ZonesByStates:
         return (self._consistent_zones or self.iterate.zones).sides
 
 
-def overlap(iterate: MembraneIterate, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(iterate: MembraneIterate, geometry: Geometry) -> float:
     """Return the relative overlap outside the contact, or the relative tension in it."""
     problem, state = iterate.problem, iterate.state
     nip, mesh, width = problem.nip, problem.mesh, iterate.zones.width
     away = width * OUTSIDE
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-    acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
-    made = pair_displacements(kernels, x, mesh.fine.nodes, np.stack(acting, axis=1))
-    u = membrane_displacements(made)
-    u = u if kernels.is_linear else u + mesh.second(state, x)
+    u = mesh.linear_displacements_at(x, state)
+    u = u if mesh.kernels.is_linear else u + mesh.second(state, x)
     gap = sum(surface_depths(x, nip, geometry, u)) - state.approach
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
     gap += problem.sheet.stretch_by_pressure * sides
-    gap += thickness_loss(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
+    pressed = mesh.acting(state.pressure)[:, None]
+    gap += thickness_loss(problem.sheet, x, mesh.fine.nodes, pressed)[:, 0]
     return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 

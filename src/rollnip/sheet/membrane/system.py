@@ -32,7 +32,7 @@ from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.displacements import SecondFields
-from rollnip.rolling.surfaces import Mesh
+from rollnip.rolling.surfaces import Mesh, pair_displacements
 from rollnip.sheet.friction import frictions_of
 from rollnip.sheet.membrane.matrices import (
     Integrals,
@@ -99,18 +99,13 @@ class MembraneMesh(Mesh):
     def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:] that are linear in the tractions."""
         assert isinstance(state, MembraneState)
-        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = self.per_traction
-        p, above, below = state.pressure, state.shear, -state.shear_lower
-        return Displacements(
-            np.stack(
-                [
-                    xz_u @ p + xx_u @ above,
-                    zz_u @ p - xz_u @ above,
-                    xz_l @ p + xx_l @ below,
-                    zz_l @ p - xz_l @ below,
-                ]
-            )
-        )
+        return Displacements.under(self.per_traction @ _tractions(state))
+
+    def linear_displacements_at(self, x: Array, state: ContactState) -> Displacements:
+        """Return the displacements at ``x`` that are linear in the tractions."""
+        assert isinstance(state, MembraneState)
+        acting = self.acting(_tractions(state))
+        return Displacements.under(pair_displacements(self.kernels, x, self.fine.nodes, acting))
 
     def second_fields(self, state: ContactState) -> SecondFields:
         """Return the second-order displacements under a solution's tractions as functions."""
@@ -124,19 +119,9 @@ class MembraneMesh(Mesh):
         return SecondFields(functions, above.ends[:2] + below.ends[2:])
 
 
-def membrane_displacements(made: Array) -> Displacements:
-    """Return displacements under a solution's tractions: (q_u, p) above and (-q_l, p) below.
-
-    ``made``, (6, n, 3): displacements by p, q_u and q_l, for each function of `pair_displacements`.
-    """
-    xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
-    four = [
-        xz_u[:, 0] + xx_u[:, 1],
-        zz_u[:, 0] - xz_u[:, 1],
-        xz_l[:, 0] - xx_l[:, 2],
-        zz_l[:, 0] + xz_l[:, 2],
-    ]
-    return Displacements(np.stack(four))
+def _tractions(state: MembraneState) -> Array:
+    """Return p, q_u and q_l at the nodes, (n, 3) [MPa]."""
+    return np.stack([state.pressure, state.shear, state.shear_lower], axis=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +143,10 @@ class MembraneTerms:
     traction: float | None
     known: KnownTension
     lean: float = 0.0
+
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the common gap and of the creep of one interface, each (n,) [mm]."""
+        return self.clearance, self.offsets[number]
 
 
 @dataclass(frozen=True)
@@ -245,6 +234,11 @@ class MembraneProblem:
     def meshes(self) -> tuple[MembraneMesh, MembraneMesh]:
         """Return the mesh of each interface; both are the same."""
         return self.mesh, self.mesh
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Return the curvature of the common gap for each interface [1/mm]."""
+        return self.nip.curvature, self.nip.curvature
 
     @property
     def knows_path(self) -> bool:

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import Layout, States, contact_zones
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState
 from rollnip.sheet.zones import (
@@ -65,11 +66,12 @@ class MembraneZones(SideZones):
 
         Figures depend on transitions only to second order: ten times their squared distance counts.
         """
-        moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
-        edges = max(float(max(move[0], move[-1])) for move in moves)
-        inner = max(float(np.max(move[1:-1], initial=0.0)) for move in moves)
-        share = inner / other.width
-        return max(edges / other.width, OF_TRANSITIONS * share * share)
+        parts = []
+        for one, two in zip(self.sides, other.sides, strict=True):
+            off = np.abs(one.breaks - two.breaks) / other.width
+            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
+            parts.append(float(off.max()))
+        return largest(*parts)
 
     def states_on(self, x: Array) -> States:
         """Return the states of the nodes on both interfaces, (2, n)."""

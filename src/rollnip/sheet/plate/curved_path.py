@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.sheet.bending import COUNTED, bending_length
-from rollnip.sheet.plate.interface import SIGNS, values_at
+from rollnip.sheet.friction import SIDE_SIGNS
+from rollnip.sheet.plate.interface import values_at
 from rollnip.sheet.plate.loads import PiecewiseLoads
 
 if TYPE_CHECKING:
@@ -79,14 +80,14 @@ class CurvedLoad:
             return self.height[at], self.rotation[at]
         return _deflection(self.loads, x, self.loads.tail_moments_at(x))
 
-    def change_from(self, old: CurvedLoad, load: float) -> float:
-        """Return the largest change of couple and force since an older load, over the line load."""
+    def change_from(self, old: CurvedLoad) -> float:
+        """Return the largest change of couple and force since an older load [N/mm]."""
         x = self.loads.nodes
         couple, force = (
             np.abs(new - np.interp(x, old.loads.nodes, one))
             for new, one in zip(self.loads.lines.T, old.loads.lines.T, strict=True)
         )
-        return float(couple.max() + np.trapezoid(force, x)) / load
+        return float(couple.max() + np.trapezoid(force, x))
 
 
 def _deflection(loads: PiecewiseLoads, x: Array, tail_moments: Array) -> tuple[Array, Array]:
@@ -134,7 +135,7 @@ def curved_load(
     sheet, plate = problem.sheet, problem.plate
     sheared = np.zeros(x.size)
     for side, mesh in enumerate(problem.meshes):
-        sheared += SIGNS[side] * values_at(mesh, state.shear[side], x)
+        sheared += SIDE_SIGNS[side] * values_at(mesh, state.shear[side], x)
     rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
     lines = np.stack([slope * left_out, -slope * (sheared - rise)], axis=1)
     return CurvedLoad.at_nodes(PiecewiseLoads.of_lines(x, lines, sheet, plate))

@@ -11,8 +11,9 @@ from rollnip.rolling import RollingContact
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.lagged_terms import sheet_rate
-from rollnip.sheet.plate.interface import SIGNS, fields_of_side, interface_peak
+from rollnip.sheet.plate.interface import fields_of_side, interface_peak
 from rollnip.sheet.plate.iterate import PlateIterate, overlap
 from rollnip.sheet.plate.lagged_terms import (
     change_of_terms,
@@ -98,7 +99,7 @@ class PlateFormulation:
 
     def overlap(self, iterate: PlateIterate) -> float:
         """Return the relative overlap outside the contacts, or the relative tension in them."""
-        return overlap(iterate, self.contact.kernels, self.contact.geometry)
+        return overlap(iterate, self.contact.geometry)
 
     def with_corrections(self, iterate: PlateIterate) -> PlateIterate:
         """Return a solution with lagged terms from the corrections of the contact."""
@@ -144,5 +145,5 @@ def _into_sheet(iterate: PlateIterate) -> float:
     taken, lagged = 0.0, iterate.lagged
     for side, face in enumerate(face_levers(problem, state, lagged.curved)):
         strain = (problem.strain_over(state, lagged.known, side) / problem.meshes[side].dx)[:-1]
-        taken += SIGNS[side] * float(face.forces @ (1.0 + strain)) - face.lost
+        taken += SIDE_SIGNS[side] * float(face.forces @ (1.0 + strain)) - face.lever_force
     return sheet_rate(*state.creepages) * taken

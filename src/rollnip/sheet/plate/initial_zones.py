@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from rollnip.contact import State, cosine_nodes, elements_of_zones, subdivided
 from rollnip.nip import Torque
 from rollnip.rolling import RollingContact
-from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.sheet.iterate import kernels_after
 from rollnip.sheet.lagged_terms import traction_within_friction
 from rollnip.sheet.plate.complementarity import solve_complementarity
 from rollnip.sheet.plate.interface import interface_mesh
@@ -104,9 +104,7 @@ class InitialZones:
 
         Where the edges are approximately known, nodes crowd there.
         """
-        kernels = self.contact.kernels
-        if not kernels.is_fixed:
-            kernels = replace(kernels, held=NO_SECOND_ORDER)
+        kernels = kernels_after(None, self.contact.kernels)
         meshes = []
         for number in (0, 1):
             breaks, elements = _breaks(zones, number, margin, count)

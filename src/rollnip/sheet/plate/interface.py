@@ -19,8 +19,6 @@ from rollnip.rolling.mesh_solution import peaks_alike
 from rollnip.rolling.surfaces import Mesh
 
 Array = NDArray[np.float64]
-SIGNS = (1.0, -1.0)
-"""Signs of the shear on the upper and lower roller, and of the creep of its surface."""
 _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
 """Matrix from the values of a cubic at 0, 1, 2 and 3 to its coefficients, constant first."""
 
@@ -82,28 +80,12 @@ def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> Interf
     )
 
 
-def own_displacements(mesh: Mesh, side: int, pressure: Array, shear: Array) -> Displacements:
-    """Return the linear displacements of one roller at nodes[1:]; those of the other one are zero.
-
-    ``shear`` is q_u on the upper roller; on the lower one it is q_l, which acts as -q_l.
-    """
-    xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
-    t = SIGNS[side] * shear
-    four = np.zeros((4, mesh.inner.size + 1))
-    four[2 * side] = xz @ pressure + xx @ t
-    four[2 * side + 1] = zz @ pressure - xz @ t
-    return Displacements(four)
-
-
 def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
     """Return int (du_x/dx - u_z/R) dx over the intervals, for displacements at nodes[1:]."""
     out = u_x[1:] - u_x[:-1]
     hoop = mesh.kernels.hoops[side]
     if hoop:
-        means = mesh.fine.means
-        assert means is not None
-        dx = np.diff(mesh.fine.nodes[1:])[:, None]
-        out = out - hoop * (mesh.sums(dx * means) @ u_z)
+        out = out - hoop * mesh.fine.integrated(u_z)
     return np.asarray(out)
 
 
@@ -158,13 +140,8 @@ def _turns(cubic: list[float]) -> list[float]:
     return [top / bottom for top, bottom in ((far, 3.0 * third), (slope, far)) if bottom]
 
 
-def curvatures(nip: Nip) -> tuple[float, float]:
-    """Return the curvatures of the upper and the lower roller [1/mm]."""
-    return nip.upper.curvature, nip.lower.curvature
-
-
 def path_ratio(x: Array, nip: Nip, side: int, u: Displacements) -> Array:
     """Return ds/dx of the surface of one roller in each interval, (n - 1,)."""
-    inward = (u.z_upper, u.z_lower)[side]
-    slope = 0.5 * curvatures(nip)[side] * (x[1:] + x[:-1]) + np.diff(inward) / np.diff(x)
+    inward, roller = (u.z_upper, u.z_lower)[side], (nip.upper, nip.lower)[side]
+    slope = 0.5 * roller.curvature * (x[1:] + x[:-1]) + np.diff(inward) / np.diff(x)
     return np.asarray(np.sqrt(1.0 + slope**2))

@@ -10,15 +10,13 @@ from numpy.typing import NDArray
 
 from rollnip._largest import largest
 from rollnip.contact import State
-from rollnip.influence import displacement_under
 from rollnip.model import Geometry
-from rollnip.rolling import Displacements, PairKernels, surface_depths
-from rollnip.rolling.surfaces import Mesh
+from rollnip.rolling import surface_depths
 from rollnip.sheet.conditions import OUTSIDE, violation_outside
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.iterate import SheetIterate
 from rollnip.sheet.lagged_terms import interpolated
 from rollnip.sheet.plate.curved_path import places_along
-from rollnip.sheet.plate.interface import SIGNS
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.plate.zones import PlateZones
 
@@ -33,14 +31,14 @@ def shear_over(iterate: PlateIterate) -> float:
 
     Infinite where one side has no pressure.
     """
-    state, most = iterate.state, 0.0
+    state, parts = iterate.state, [0.0]
     for side, friction in enumerate(iterate.problem.frictions):
         bound = friction * np.maximum(state.pressure[side], 0.0)
         if not np.any(state.pressure[side] > 0.0):
             return inf
         over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
-        most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
-    return most
+        parts.append(float(np.max(over, initial=0.0)) / float(bound.max()))
+    return largest(*parts)
 
 
 def pulls_at_edges(iterate: PlateIterate) -> bool:
@@ -57,24 +55,24 @@ def added_to_peaks(iterate: PlateIterate, proposed: PlateZones) -> float:
 
     ``proposed``: zones with their edges where they should be.
     """
-    most = 0.0
+    parts = [0.0]
     for side, mesh in enumerate(iterate.problem.meshes):
         x, top = mesh.inner, int(np.argmax(iterate.state.pressure[side]))
         for node, edge, place in zip((1, x.size - 2), (0, -1), proposed.edges[side], strict=True):
             if top == node:
                 off, away = abs(place - x[edge]), abs(x[node] - x[edge])
-                most = max(most, float(off / (2.0 * away + off)))
-    return most
+                parts.append(float(off / (2.0 * away + off)))
+    return largest(*parts)
 
 
-def overlap(iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(iterate: PlateIterate, geometry: Geometry) -> float:
     """Return the relative overlap outside the contacts, or the relative tension in them."""
     problem, state, width = iterate.problem, iterate.state, iterate.zones.width
     places = []
     for mesh, side in zip(problem.meshes, iterate.zones.sides, strict=True):
         away = side.width * OUTSIDE
         places.append(np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away]))
-    gaps = gaps_at(iterate, (kernels, geometry), (places[0], places[1]))
+    gaps = gaps_at(iterate, geometry, (places[0], places[1]))
     parts = (
         violation_outside(problem.nip, gap, pressure, width, state.approach)
         for gap, pressure in zip(gaps, state.pressure, strict=True)
@@ -82,39 +80,21 @@ def overlap(iterate: PlateIterate, kernels: PairKernels, geometry: Geometry) -> 
     return largest(*parts)
 
 
-def gaps_at(
-    iterate: PlateIterate, model: tuple[PairKernels, Geometry], places: tuple[Array, Array]
-) -> list[Array]:
+def gaps_at(iterate: PlateIterate, geometry: Geometry, places: tuple[Array, Array]) -> list[Array]:
     """Return the gaps between each roller and the sheet at places of their own, each (m,) [mm]."""
     problem, state, curved = iterate.problem, iterate.state, iterate.lagged.curved
     x, ends = np.concatenate(places), [places[0].size]
     heights, rotations = (np.split(part, ends) for part in problem.path_at(state, x, curved))
     indented = problem.face_indentations_at(state, iterate.lagged.known, places)
     out = []
-    for side, (here, mesh) in enumerate(zip(places, problem.meshes, strict=True)):
-        u = _displacements_at(mesh, state, model[0], side, here)
-        gap = surface_depths(here, problem.nip, model[1], u)[side] + indented[side]
-        gap -= SIGNS[side] * heights[side]
+    for side, here in enumerate(places):
+        u = problem.displacements_at(state, side, here)
+        gap = surface_depths(here, problem.nip, geometry, u)[side] + indented[side]
+        gap -= SIDE_SIGNS[side] * heights[side]
         if curved is not None:
             gap -= 0.25 * problem.sheet.thickness * rotations[side] ** 2
         out.append(np.asarray(gap - (state.approach if side == 0 else 0.0)))
     return out
-
-
-def _displacements_at(
-    mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x: Array
-) -> Displacements:
-    """Return the displacements of one roller at given places; those of the other one are zero."""
-    four, surface = np.zeros((4, x.size)), (kernels.upper, kernels.lower)[side]
-    if surface is None:
-        return Displacements(four)
-    tractions = state.pressure[side], SIGNS[side] * state.shear[side]
-    acting = np.stack([mesh.acting(t) for t in tractions], axis=1)
-    xx, zz, xz = displacement_under(surface.together, x, mesh.fine.nodes, acting)
-    four[2 * side] = xz[:, 0] + xx[:, 1]
-    four[2 * side + 1] = zz[:, 0] - xz[:, 1]
-    flat = Displacements(four)
-    return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
 def interpolated_terms(iterate: PlateIterate, problem: PlateProblem) -> PlateTerms:

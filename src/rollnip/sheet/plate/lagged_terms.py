@@ -12,12 +12,14 @@ from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.changes import scale_of_creepage
 from rollnip.rolling.surface_work import mean_shear
+from rollnip.sheet.figures import scale_of_creepages
+from rollnip.sheet.friction import SIDE_SIGNS
 from rollnip.sheet.lagged_terms import (
     creep_in_stick,
     has_no_terms,
     initial_traction,
+    over_load,
     pressed_gap,
     sheet_rate,
     traction_for_torque,
@@ -30,7 +32,7 @@ from rollnip.sheet.plate.curved_path import (
     places_along,
     tension_left_out,
 )
-from rollnip.sheet.plate.interface import SIGNS, curvatures, own_displacements, path_ratio
+from rollnip.sheet.plate.interface import path_ratio
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
 from rollnip.sheet.tension import FaceLevers, KnownTension
 
@@ -72,7 +74,7 @@ def lagged_terms(
     bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
         mesh = problem.meshes[side]
-        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
+        flat = mesh.linear_displacements(state.side(side))
         u = mesh.with_second(flat, state.side(side))
         clearance.append(_clearance(problem, geometry, side, flat, u))
         offsets.append(_offsets(problem, geometry, (state, known), side, (flat, u)))
@@ -113,7 +115,7 @@ def change_of_terms(
     half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
     strain = nip.curvature * half
     approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
-    scale = scale_of_creepage(max(map(abs, state.creepages)), strain)
+    scale = scale_of_creepages(state.creepages, strain)
     changes = []
     for side, mesh in enumerate(problem.meshes):
         drift = new.offsets[side] - old.offsets[side]
@@ -122,7 +124,7 @@ def change_of_terms(
         changes.append(float(moved.max()) / approach)
     if new.traction is not None and old.traction is not None:
         load = float(problem.meshes[0].weights @ state.pressure[0])
-        changes.append(abs(new.traction - old.traction) / (strain * load))
+        changes.append(over_load(abs(new.traction - old.traction), strain * load))
     changes.append(_curved_change(new, old, problem, state))
     return largest(*changes)
 
@@ -132,12 +134,10 @@ def _curved_change(
 ) -> float:
     """Return the change of tension, couples and forces due to the curved path, over the load."""
     load = float(problem.meshes[0].weights @ state.pressure[0])
-    if not load > 0.0:
-        return 0.0
-    change = new.known.change_from(old.known) / load
-    if new.curved is None or old.curved is None:
-        return change
-    return max(change, new.curved.change_from(old.curved, load))
+    change = new.known.change_from(old.known)
+    if new.curved is not None and old.curved is not None:
+        change = largest(change, new.curved.change_from(old.curved))
+    return over_load(change, load)
 
 
 def residual_with_terms(
@@ -148,13 +148,12 @@ def residual_with_terms(
     See `rollnip.sheet.membrane.lagged_terms.residual_with_terms`.
     """
     nip, parts = problem.nip, [0.0]
-    creepage = max(map(abs, state.creepages))
     for side, mesh in enumerate(problem.meshes):
         half = 0.5 * float(np.ptp(mesh.inner))
         approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
         gap = pressed_gap(new.clearance[side] - old.clearance[side], state.pressure[side])
         drift = creep_in_stick(new.offsets[side] - old.offsets[side], state.states[side])
-        scale = scale_of_creepage(creepage, nip.curvature * half)
+        scale = scale_of_creepages(state.creepages, nip.curvature * half)
         parts += [gap / approach, drift / (2.0 * half * scale)]
     return largest(*parts, _curved_change(new, old, problem, state))
 
@@ -183,7 +182,7 @@ def _clearance(
         return np.zeros(mesh.inner.size)
     depth = surface_depths(mesh.inner, problem.nip, geometry, u.but_last())[side]
     moved = (flat.z_upper, flat.z_lower)[side][:-1]
-    return np.asarray(depth - 0.5 * curvatures(problem.nip)[side] * mesh.inner**2 - moved)
+    return np.asarray(depth - 0.5 * problem.curvatures[side] * mesh.inner**2 - moved)
 
 
 def face_levers(
@@ -233,7 +232,7 @@ def _offsets(
     hoops = np.array(mesh.kernels.hoops)[:, None]
     excess = stretch_excess(x, nip, geometry, mesh.finer(u))[side]
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)[side]
-    sign, half = SIGNS[side], 0.5 * state.creepage
+    sign, half = SIDE_SIGNS[side], 0.5 * state.creepage
     rate = sheet_rate(*state.creepages)
     strained = (rate - 1.0) * problem.creep_by_sheet(state, known, side, flat)
     return np.asarray(sign * mesh.sums((1.0 + sign * half) * excess - linear) + strained)
@@ -241,8 +240,8 @@ def _offsets(
 
 def _lean(problem: PlateProblem, state: PlateState, side: int, u: Displacements) -> float:
     """Return int q slope dx of one surface [N/mm]."""
-    mesh, sign = problem.meshes[side], SIGNS[side]
+    mesh, sign = problem.meshes[side], SIDE_SIGNS[side]
     shear = state.shear[side]
     levers = float(mesh.weights @ (shear * mesh.inner))
     inward = (u.z_upper, u.z_lower)[side]
-    return -sign * (curvatures(problem.nip)[side] * levers + mesh.work(shear, inward))
+    return -sign * (problem.curvatures[side] * levers + mesh.work(shear, inward))

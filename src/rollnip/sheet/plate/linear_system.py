@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import State, States
+from rollnip.contact.problem import shear_signs
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.friction import SIGNS
 from rollnip.sheet.lu import LUFactors
 from rollnip.sheet.plate.matrices import Pair
 from rollnip.sheet.plate.system import PlateProblem, PlateState, PlateTerms
@@ -71,7 +71,7 @@ def _unknown_indices(states: tuple[States, States], end: int) -> NDArray[np.intp
 def _slip_ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
     """Return shear over pressure where the interfaces slip, 0 elsewhere."""
     upper, lower = (
-        friction * SIGNS.take(one) for friction, one in zip(problem.frictions, states, strict=True)
+        friction * shear_signs(one) for friction, one in zip(problem.frictions, states, strict=True)
     )
     return upper, lower
 

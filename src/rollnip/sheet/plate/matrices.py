@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from rollnip.contact import left_out_of_creep
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.plate.interface import SIGNS, stretch_by
+from rollnip.sheet.friction import SIDE_SIGNS
+from rollnip.sheet.plate.interface import stretch_by
 from rollnip.sheet.plate.loads import PiecewiseLoads, moments_about
 from rollnip.sheets import Sheet
 
@@ -62,7 +63,7 @@ def influence_matrices(
 
 def _by_roller(mesh: Mesh, side: int) -> Array:
     """Return gap and creep of one interface due to its own roller, (2 n, 2 n) [mm/MPa]."""
-    n, sign = mesh.inner.size, SIGNS[side]
+    n, sign = mesh.inner.size, SIDE_SIGNS[side]
     xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
     out = np.zeros((2 * n, 2 * n))
     out[:n, :n] = zz[:-1]
@@ -99,7 +100,7 @@ def _by_sheet(
     And (m, 2 n) rotations of the sections at the places.
     """
     loads, arcs = tractions
-    sheet, half, there = loads.sheet, 0.5 * loads.sheet.thickness, SIGNS[by]
+    sheet, half, there = loads.sheet, 0.5 * loads.sheet.thickness, SIDE_SIGNS[by]
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_far = (np.arange(x.size) < meshes[0].nodes.size - 1) == by
     here = np.where(is_far[:-1], -there, there)[:, None]

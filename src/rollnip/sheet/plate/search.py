@@ -16,14 +16,15 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import Crowding, cosine_nodes, crowding_of, elements_of_zones, subdivided
 from rollnip.model import Model
-from rollnip.rolling import PairKernels, RollingContact
-from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling import RollingContact
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.boundary_layers import SHORTEST_LAYER, mismatch_layer, shortest_layer
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.formulation import END_TOLERANCE
+from rollnip.sheet.iterate import kernels_after
 from rollnip.sheet.lagged_terms import has_no_terms
 from rollnip.sheet.plate.complementarity import settled_slip, solve_complementarity
 from rollnip.sheet.plate.initial_zones import InitialZones
@@ -181,7 +182,7 @@ class PlateSearch:
             proposed=proposed,
             misplacement=misplacement,
             violated=violated,
-            is_met=max(violated, shear_over(iterate)) <= self._slack,
+            is_met=largest(violated, shear_over(iterate)) <= self._slack,
             is_at_rest=is_at_rest,
             is_placed=is_placed,
         )
@@ -265,7 +266,8 @@ class PlateSearch:
                 shapes[number, crowding] = kept
             nodes = cosine_nodes(breaks, kept, crowding)
             fine = subdivided(nodes, kept, crowding)
-            meshes.append(interface_mesh(nodes, fine, self._kernels_for(before, number), number))
+            kernels = kernels_after(before, self.contact.kernels, number)
+            meshes.append(interface_mesh(nodes, fine, kernels, number))
         both = meshes[0], meshes[1]
         return PlateProblem.on(self.contact.nip, both, self._path_ratios(both, before)), is_fine
 
@@ -282,18 +284,6 @@ class PlateSearch:
             ratio = path_ratio(x, self.contact.nip, side, u)
             out.append(np.interp(new.inner, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]
-
-    def _kernels_for(self, before: PlateIterate | None, side: int) -> PairKernels:
-        """Return influence functions with one roller's second-order terms of the previous solution.
-
-        Influence functions without second-order terms are returned unchanged.
-        """
-        if self.contact.kernels.is_fixed:
-            return self.contact.kernels
-        held = NO_SECOND_ORDER
-        if before is not None and (self.contact.nip.upper, self.contact.nip.lower)[side].layers:
-            held = before.problem.meshes[side].second_fields(before.state.side(side))
-        return replace(self.contact.kernels, held=held)
 
     def _solve_on_mesh(
         self,

@@ -9,25 +9,17 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._results.profiles import fine_points, surface_strain
-from rollnip.contact import ContactProblem, Control, State
-from rollnip.interior import SurfaceTractions
+from rollnip._largest import largest
+from rollnip._results.profiles import fine_points
 from rollnip.model import FINITE
-from rollnip.nip import Creepage
-from rollnip.rollers import SIDES
-from rollnip.rolling import Displacements, MeshSolution, RollingContact, stretch_excess
-from rollnip.rolling.assemble import LaggedTerms
+from rollnip.rolling import Displacements, MeshSolution
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
-from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.membrane.system import MembraneState
 from rollnip.sheet.plate.curved_path import direction_of
-from rollnip.sheet.plate.interface import SIGNS, values_at
 from rollnip.sheet.plate.iterate import PlateIterate
 from rollnip.sheet.plate.lagged_terms import face_levers
 from rollnip.sheet.plate.linear_system import FactorisedPlate
 from rollnip.sheet.refine import Refined
-from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.tension import FaceLevers
 
@@ -67,24 +59,18 @@ class PlateSolution(SheetSolution):
         sheet, (slope, curvature) = self._iterate.problem.sheet, self._path
         strain = 0.5 * sheet.thickness * curvature * slope
         for name in ("tension_max", "tension_min"):
-            out[name] = max(out[name], strain / sheet.stretch_by_tension)
-        out["strain_max"] = max(out["strain_max"], strain)
+            out[name] = largest(out[name], strain / sheet.stretch_by_tension)
+        out["strain_max"] = largest(out["strain_max"], strain)
         is_lower = figures is self._plate_refined.lower
         if (self.nip.lower if is_lower else self.nip.upper).is_rigid:
-            out["nip_width"] = max(out["nip_width"], slope * figures.nip_width)
+            out["nip_width"] = largest(out["nip_width"], slope * figures.nip_width)
             left = SHARE_OF_EDGE_PEAK["finite"] * figures.peak_pressure
-            out["peak_pressure"] = max(out["peak_pressure"], left)
+            out["peak_pressure"] = largest(out["peak_pressure"], left)
         return out
 
-    def _traction_slope(self) -> float:
-        iterate, tractions = self._iterate, []
-        nips = (replace(self.nip, tangential=Creepage(one)) for one in (0.0, 1.0))
-        without, with_it = (replace(iterate.problem, nip=nip) for nip in nips)
-        system = FactorisedPlate.of(without, iterate.state.states)
-        for one in (system, replace(system, problem=with_it)):  # the tractions are linear in it
-            shear = one.solved(iterate.lagged).shear[1]
-            tractions.append(float(iterate.problem.meshes[1].weights @ shear))
-        return abs(tractions[1] - tractions[0])
+    @property
+    def _system(self) -> Any:
+        return FactorisedPlate.of(self._iterate.problem, self._iterate.state.states)
 
     @cached_property
     def _path(self) -> tuple[float, float]:
@@ -93,28 +79,10 @@ class PlateSolution(SheetSolution):
         rotations = iterate.problem.rotations(iterate.state, iterate.lagged.curved)
         for mesh, rotation in zip(iterate.problem.meshes, rotations, strict=True):
             x, turned = mesh.inner, rotation[:-1]
-            slope = max(slope, float(np.max(turned**2, initial=0.0)))
+            slope = largest(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
-            curvature = max(curvature, float(np.max(bent, initial=0.0)))
+            curvature = largest(curvature, float(np.max(bent, initial=0.0)))
         return slope, curvature
-
-    def _sheet_profiles(self) -> SheetProfiles:
-        x, _ = self._points
-        iterate = self._iterate
-        lower = self._lower_mesh_solution
-        return SheetProfiles(
-            x,
-            self._on_lower(x, lower.shear),
-            self._tension(x),
-            iterate.problem.strain_at(iterate.state, iterate.lagged.known, x),
-            self._slip(1),
-            self._on_lower(x, lower.pressure),
-            self._height,
-        )
-
-    @property
-    def _state(self) -> MembraneState:
-        return cast(MembraneState, self.final.state)
 
     @property
     def _iterate(self) -> PlateIterate:
@@ -127,25 +95,18 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _lower_mesh_solution(self) -> MeshSolution:
-        return lower_mesh_solution(self._plate_refined, self.final)
-
-    def _tractions_on(self, roller: str) -> SurfaceTractions:
-        one = self._of_side(SIDES.index("upper" if roller == "upper" else "lower"))
-        sign = 1.0 if roller == "upper" else -1.0
-        return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
+        return self._plate_refined.mesh_solution(self.final.contact, side=1)
 
     def _of_side(self, side: int) -> MeshSolution:
         return self.final if side == 0 else self._lower_mesh_solution
 
-    def _on_lower(self, x: Array, traction: Array) -> Array:
-        return np.interp(x, self._lower_mesh_solution.x, traction, left=0.0, right=0.0)
-
-    def _strain(self, x: Array, side: int) -> Array:
-        return surface_strain(x, self._of_side(side), side=SIDES[side])
-
     def _tension(self, x: Array) -> Array:
         iterate = self._iterate
         return iterate.problem.tension_at(iterate.state, iterate.lagged.known, x)
+
+    def _strain_of_sheet(self, x: Array) -> Array:
+        iterate = self._iterate
+        return iterate.problem.strain_at(iterate.state, iterate.lagged.known, x)
 
     @cached_property
     def _height(self) -> Array:
@@ -160,20 +121,10 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        iterate, four = self._iterate, []
-        x = np.unique(
-            np.concatenate([fine_points(self.final), fine_points(self._lower_mesh_solution)])
-        )
-        for side in (0, 1):
-            one, mesh = self._of_side(side), iterate.problem.meshes[side]
-            acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
-            made = pair_displacements(self.final.contact.kernels, x, one.nodes, acting)
-            xx, zz, xz = made[3 * side : 3 * side + 3]
-            rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
-            if not mesh.kernels.is_linear:
-                rows += mesh.second(iterate.state.side(side), x).four[2 * side : 2 * side + 2]
-            four.append(rows)
-        return x, Displacements(np.concatenate(four))
+        iterate = self._iterate
+        x = np.unique(np.concatenate([fine_points(self._of_side(side)) for side in (0, 1)]))
+        upper, lower = (iterate.problem.displacements_at(iterate.state, side, x) for side in (0, 1))
+        return x, upper + lower
 
     @property
     def _levers(self) -> tuple[FaceLevers, FaceLevers] | None:
@@ -190,86 +141,7 @@ class PlateSolution(SheetSolution):
         first, second = (mesh.dx[:-1] for mesh in iterate.problem.meshes)
         return upper[:-1] / first, lower[:-1] / second
 
-    def _slip(self, side: int) -> Array | None:
-        speed = self.nip.speed
-        if speed is None:
-            return None
-        x, u = self._points
-        iterate = self._iterate
-        dx, problem, state = np.diff(x), iterate.problem, iterate.state
-        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
-        strain = problem.strain_at(state, iterate.lagged.known, x)
-        face = 0.5 * (strain[1:] + strain[:-1])
-        curved, half = iterate.lagged.curved, 0.5 * problem.sheet.thickness
-        turned = direction_of(problem.path_at(state, x, curved)[1], curved)
-        face -= SIGNS[side] * half * np.diff(turned) / dx
-        rate = state.creepages[side] + SIGNS[side] * (stretch - face)
-        out = np.full(x.size, np.nan)
-        middle = 0.5 * (x[1:] + x[:-1])
-        for zone in iterate.zones.sides[side].zones:
-            within = inside_zone(x, zone)
-            out[within] = 0.0
-            if zone.state != State.STICK:
-                out[within] = -speed * np.interp(x[within], middle, rate)
-        return out
-
-
-def plate_mesh_solution(contact: RollingContact, refined: Refined[PlateIterate]) -> MeshSolution:
-    """Return a solution in the form of a bare nip's, with the upper interface's tractions."""
-    iterate = refined.iterate
-    state, problem = iterate.state, iterate.problem
-    upper, lower = problem.meshes
-    shear_lower = values_at(lower, state.shear[1], upper.inner)
-    one = state.side(0)
-    both = MembraneState(
-        states=one.states,
-        pressure=one.pressure,
-        shear=one.shear,
-        approach=one.approach,
-        creepage=state.creepages[0],
-        steps=iterate.steps,
-        settled=True,
-        states_lower=state.states[1],
-        shear_lower=shear_lower,
-        creepage_lower=state.creepages[1],
-    )
-    lagged = iterate.lagged
-    terms = lagged.clearance[0], lagged.offsets[0]
-    return refined.upper_mesh_solution(contact, _as_problem(iterate, 0), both, terms)
-
-
-def lower_mesh_solution(refined: Refined[PlateIterate], upper: MeshSolution) -> MeshSolution:
-    """Return the `MeshSolution` of the lower interface, from that of the upper one."""
-    iterate = refined.iterate
-    mesh, lagged = iterate.problem.meshes[1], iterate.lagged
-    return replace(
-        upper,
-        mesh=mesh,
-        problem=_as_problem(iterate, 1),
-        state=iterate.state.side(1, creepage=iterate.state.creepage),
-        lagged=LaggedTerms(
-            lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
-        ),
-        zones=iterate.zones.lower.zones,
-        figures=refined.lower.watched,
-        error=refined.lower_errors.watched,
-    )
-
-
-def _as_problem(iterate: PlateIterate, side: int) -> ContactProblem:
-    """Return the contact problem that a bare nip would have on the mesh of one interface."""
-    problem, mesh = iterate.problem, iterate.problem.meshes[side]
-    curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
-    control = Control(
-        load=None, approach=iterate.state.approach, traction=None, creepage=iterate.state.creepage
-    )
-    return ContactProblem(
-        x=mesh.inner,
-        weights=mesh.weights,
-        clearance=0.5 * curvature * mesh.inner**2 + iterate.lagged.clearance[side],
-        influence=mesh.influence,
-        creep_length=mesh.dx,
-        creep_offset=np.zeros(mesh.inner.size),
-        friction=problem.frictions[side],
-        control=control,
-    )
+    def _bent(self, x: Array) -> Array:
+        iterate, curved = self._iterate, self._iterate.lagged.curved
+        turned = direction_of(iterate.problem.path_at(iterate.state, x, curved)[1], curved)
+        return np.asarray(0.5 * iterate.problem.sheet.thickness * np.diff(turned) / np.diff(x))

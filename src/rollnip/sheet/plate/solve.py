@@ -10,7 +10,7 @@ import numpy as np
 
 from rollnip._errors import ConvergenceError
 from rollnip.influence import KernelCache
-from rollnip.model import SIMPLER, Model
+from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import MeshSolution, RollingContact, half_width_guess, pair_kernels
@@ -25,10 +25,10 @@ from rollnip.sheet.checks import (
     simpler_geometry_reservations,
     thick_sheet_reservations,
 )
-from rollnip.sheet.one_geometry import solve_in_geometry
+from rollnip.sheet.one_geometry import solve_until_settled
 from rollnip.sheet.plate.formulation import PlateFormulation
 from rollnip.sheet.plate.iterate import PlateIterate
-from rollnip.sheet.plate.solution import PlateSolution, lower_mesh_solution, plate_mesh_solution
+from rollnip.sheet.plate.solution import PlateSolution
 from rollnip.sheet.refine import Refined
 from rollnip.sheet.status import with_errors_in_status
 from rollnip.validity import StrainSizes, validity_reservations
@@ -87,29 +87,17 @@ def membrane_limit(nip: Nip, model: Model, cache: KernelCache) -> float:
     return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
 
-def _is_settled(refined: Refined[PlateIterate] | None) -> bool:
-    return refined is not None and refined.iterate.settled
-
-
 def _solve_with_fallback(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[RollingContact, Refined[PlateIterate] | None, tuple[Reservation, ...]]:
     """Return the contact solved, its solution, and reservations on its model.
 
-    Simpler geometries are tried until one has a converged solution. Where none has, the first
-    solution is returned; None where there is no solution at all.
+    Where no geometry has a settled solution, it is the first one found; None where there is none.
     """
-    tried: list[tuple[RollingContact, Refined[PlateIterate] | None]] = []
-    now: Model | None = model
-    while now is not None:
-        tried.append(solve_in_geometry(PlateFormulation, nip, now, cache))
-        if _is_settled(tried[-1][1]):
-            break
-        simpler = SIMPLER.get(now.geometry)
-        now = None if simpler is None else replace(now, geometry=simpler)
-    settled = [one for one in tried if _is_settled(one[1])]
-    contact, refined = (settled or [one for one in tried if one[1]] or tried)[0]
-    geometries = [one.geometry for one, _ in tried]
+    tried = solve_until_settled(PlateFormulation, nip, model, cache)
+    solved = [one for one in tried if one.refined is not None]
+    contact, refined = tried[-1] if tried[-1].is_settled else (solved or tried)[0]
+    geometries = [one.contact.geometry for one in tried]
     unsolved = geometries[: geometries.index(contact.geometry)]
     return contact, refined, simpler_geometry_reservations(unsolved, contact.geometry)
 
@@ -120,8 +108,8 @@ def _assembled(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     reservations, seconds, version = record
-    final = plate_mesh_solution(contact, refined)
-    both = final, lower_mesh_solution(refined, final)
+    final, lower = (refined.mesh_solution(contact, side) for side in (0, 1))
+    both = final, lower
     converged, status = _verdict(refined, both)
     strains = _strains(both)
     reservations += compression_reservations(refined.figures, refined.errors)

@@ -27,13 +27,10 @@ from rollnip.contact import ContactState, States
 from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.friction import frictions_of
+from rollnip.sheet.friction import SIDE_SIGNS, frictions_of
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.curved_path import CurvedLoad
 from rollnip.sheet.plate.interface import (
-    SIGNS,
-    curvatures,
-    own_displacements,
     stretch_by,
     values_at,
 )
@@ -76,14 +73,14 @@ class PlateState:
         parts = zip(self.pressure, self.shear, strict=True)
         return np.concatenate([traction for side in parts for traction in side])
 
-    def side(self, number: int, *, creepage: float | None = None) -> ContactState:
+    def side(self, number: int) -> ContactState:
         """Return one interface as a contact state of its own."""
         return ContactState(
             states=self.states[number],
             pressure=self.pressure[number],
             shear=self.shear[number],
             approach=self.approach,
-            creepage=self.creepages[number] if creepage is None else creepage,
+            creepage=self.creepages[number],
             steps=1,
             settled=True,
         )
@@ -110,6 +107,10 @@ class PlateTerms:
     known: KnownTension
     lean: float = 0.0
     curved: CurvedLoad | None = None
+
+    def of_side(self, number: int) -> tuple[Array, Array]:
+        """Return the terms of the gap and of the creep of one interface, each (n,) [mm]."""
+        return self.clearance[number], self.offsets[number]
 
 
 @dataclass(frozen=True)
@@ -159,6 +160,11 @@ class PlateProblem:
         return cls(nip, sheet, plate, meshes, loads, arcs, frictions_of(nip), *made)
 
     @property
+    def curvatures(self) -> tuple[float, float]:
+        """Return the curvatures of the upper and the lower roller [1/mm]."""
+        return self.nip.upper.curvature, self.nip.lower.curvature
+
+    @property
     def starts(self) -> tuple[int, int, int, int, int]:
         """Return the start indices of p_u, q_u, p_l, q_l among the tractions, and the end."""
         n, m = (mesh.inner.size for mesh in self.meshes)
@@ -177,17 +183,15 @@ class PlateProblem:
         """Return the parts of gaps and creeps without unknowns, in the rows of ``matrix``."""
         sheet, known = self.sheet, lagged.known
         out, half = [], 0.5 * sheet.thickness
-        for side, (mesh, curvature) in enumerate(
-            zip(self.meshes, curvatures(self.nip), strict=True)
-        ):
+        for side, (mesh, curvature) in enumerate(zip(self.meshes, self.curvatures, strict=True)):
             gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
             creep = lagged.offsets[side]
             if lagged.curved is not None:
                 height, turned = lagged.curved.deflection_at(mesh.nodes[1:])
-                gap = gap - SIGNS[side] * height[:-1]
+                gap = gap - SIDE_SIGNS[side] * height[:-1]
                 creep = creep + half * np.diff(turned)
             out.append(gap + 0.5 * sheet.stretch_by_pressure * known.at(mesh.inner))
-            stretch = SIGNS[side] * sheet.stretch_by_tension * known.over(mesh.nodes[1:])
+            stretch = SIDE_SIGNS[side] * sheet.stretch_by_tension * known.over(mesh.nodes[1:])
             out.append(creep - stretch)
         return np.concatenate(out)
 
@@ -198,7 +202,7 @@ class PlateProblem:
         made = self.parts(self.matrix @ state.tractions + self.constant_terms(lagged))
         for side, mesh in enumerate(self.meshes):
             moved = state.height + state.rotation * mesh.inner
-            made[2 * side] -= SIGNS[side] * moved
+            made[2 * side] -= SIDE_SIGNS[side] * moved
             made[2 * side + 1] += state.creepages[side] * mesh.dx
         made[0] -= state.approach
         return (made[0], made[1]), (made[2], made[3])
@@ -223,9 +227,15 @@ class PlateProblem:
 
     def displacements(self, state: PlateState, side: int) -> Displacements:
         """Return the displacements of one roller at nodes[1:] of its interface."""
-        mesh = self.meshes[side]
-        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
-        return mesh.with_second(flat, state.side(side))
+        return self.meshes[side].displacements(state.side(side))
+
+    def displacements_at(self, state: PlateState, side: int, x: Array) -> Displacements:
+        """Return the displacements of one roller at given places."""
+        mesh, own = self.meshes[side], state.side(side)
+        if (self.nip.upper, self.nip.lower)[side].is_rigid:
+            return Displacements(np.zeros((4, x.size)))
+        flat = mesh.linear_displacements_at(x, own)
+        return flat if mesh.kernels.is_linear else flat + mesh.second(own, x)
 
     def tension_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
         """Return the tension of the sheet at given places, (m,) [N/mm]."""
@@ -244,8 +254,8 @@ class PlateProblem:
         for side, one in enumerate(self.loads):
             both = one.of(np.stack([state.pressure[side], state.shear[side]], axis=1))
             made = both.deflection(x, both.tail_moments_at(x))
-            height -= SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
-            turned -= SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
+            height -= SIDE_SIGNS[side] * made[0][:, 0] + half * made[1][:, 1]
+            turned -= SIDE_SIGNS[side] * made[1][:, 0] + half * made[2][:, 1]
         if curved is not None:
             lifted, bent = curved.deflection_at(x)
             height, turned = height + lifted, turned + bent
@@ -273,7 +283,7 @@ class PlateProblem:
             far = is_lower if side == 0 else ~is_lower
             both = one.of(np.stack([state.pressure[side], self.arcs[side] * state.shear[side]], 1))
             indented, _, warped = both.face_displacements(x, far, both.tail_moments_at(x))
-            out += indented[:, 0] - SIGNS[side] * warped[:, 1]
+            out += indented[:, 0] - SIDE_SIGNS[side] * warped[:, 1]
         return np.split(out, ends)
 
     def strain_at(self, state: PlateState, known: KnownTension, x: Array) -> Array:
@@ -295,7 +305,8 @@ class PlateProblem:
         rows = slice(self.starts[2 * side + 1], self.starts[2 * side + 2])
         roller = stretch_by(mesh, side, flat.four[2 * side], flat.four[2 * side + 1])
         pulled = sheet.stretch_by_tension * known.over(mesh.nodes[1:])
-        return np.asarray(self.matrix[rows] @ state.tractions - SIGNS[side] * (roller + pulled))
+        by_others = SIDE_SIGNS[side] * (roller + pulled)
+        return np.asarray(self.matrix[rows] @ state.tractions - by_others)
 
     def strain_over(self, state: PlateState, known: KnownTension, side: int) -> Array:
         """Return int e dx of the sheet's middle over the intervals of one interface, (n,) [mm]."""
@@ -305,7 +316,7 @@ class PlateProblem:
         tension = known.over(x)
         for number, one in enumerate(self.loads):
             pulled = one.of(self.arcs[number] * state.shear[number]).tail_moments_at(x)
-            tension += SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
+            tension += SIDE_SIGNS[number] * np.diff(moments_about(x, pulled, 1)[:, 0])
             pressed -= np.diff(one.forces_beyond(x, state.pressure[number]))
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)

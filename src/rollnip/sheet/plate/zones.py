@@ -8,6 +8,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.zones import (
@@ -79,15 +80,16 @@ class PlateZones(SideZones):
         """
         parts = []
         for one, two in zip(self.sides, other.sides, strict=True):
-            share = np.abs(one.breaks - two.breaks) / two.width
-            share[1:-1] *= OF_TRANSITIONS * share[1:-1]
-            parts.append(float(share.max()))
-        return max(parts)
+            off = np.abs(one.breaks - two.breaks) / two.width
+            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
+            parts.append(float(off.max()))
+        return largest(*parts)
 
     def edges_off(self, other: PlateZones) -> float:
         """Return the largest distance between the edges of both, over the widths of these zones."""
         parts = zip(self.sides, self.edges, other.edges, strict=True)
-        return max(float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
+        off = (float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
+        return largest(*off)
 
     def states_on(self, x: tuple[Array, Array]) -> tuple[States, States]:
         """Return the states of the nodes on both interfaces."""

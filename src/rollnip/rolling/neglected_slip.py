@@ -20,8 +20,11 @@ from rollnip.nip import Creepage, Nip
 from rollnip.rolling.lengths import thinnest_covering
 from rollnip.rolling.mesh_solution import MeshSolution
 
-# See `creepage_by_slip`; on four nips 0.17 to 0.31. See `creepage_by_ends`; on five nips up to 0.4.
-_CREEPAGE_BY_SLIP = 0.35
+# Largest change of the creepage, over the slope of the gap at an edge and over the length of the
+# slip left out, relative to the width (`creepage_by_slip`; 0.17 to 0.31 on four nips), or over the
+# square of what an end is misplaced by, relative to the thickness (`creepage_by_ends`; up to 0.4 on
+# five nips).
+_CREEPAGE_BY_SLIP = 0.4
 
 
 def creepage_by_slip(latest: MeshSolution, slip: TurningSlip) -> float:

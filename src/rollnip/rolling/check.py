@@ -162,8 +162,9 @@ def _friction_errors(
             errors.append(float(np.maximum(-sign * creep, 0.0).sum()) / allowed)
     wanted = final.problem.control.traction
     if wanted is not None:
-        off, limit = abs(float(final.weights @ final.shear) - wanted), friction * figures.load
-        errors.append(off / limit if limit > 0.0 else inf)
+        carried = float(final.problem.weights @ final.state.shear)
+        limit = friction * figures.load
+        errors.append(abs(carried - wanted) / limit if limit > 0.0 else inf)
     return errors
 
 

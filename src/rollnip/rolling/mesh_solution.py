@@ -21,7 +21,6 @@ from rollnip.contact import (
     slip_by_turning,
 )
 from rollnip.contact.problem import Array
-from rollnip.influence import load_weights
 from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import LaggedTerms
@@ -241,11 +240,6 @@ class MeshSolution:
     def over_bound(self) -> Array:
         """Acting shear beyond the traction bound at ``x``, negative within it, (M-1,) [MPa]."""
         return np.abs(self.shear) - self.problem.friction * np.maximum(self.pressure, 0.0)
-
-    @property
-    def weights(self) -> Array:
-        """Load of a unit traction at each of ``x``, (M-1,) [mm]."""
-        return load_weights(self.nodes)
 
     @property
     def has_tension(self) -> bool:

@@ -46,7 +46,7 @@ def test_an_iteration_at_rest_gives_its_own_correction():
 
 
 @pytest.mark.parametrize(
-    ("violation", "to_come", "stops"),
+    ("violation", "change", "stops"),
     [
         (2.9, 0.02, True),  # at rest, and still violated
         (1.1, 0.02, False),  # another mesh like this one may end the violation
@@ -55,7 +55,7 @@ def test_an_iteration_at_rest_gives_its_own_correction():
         (0.8, 5.0, False),
     ],
 )
-def test_an_iteration_stops_where_nothing_more_is_to_come(violation, to_come, stops):
+def test_an_iteration_stops_where_hardly_anything_changes(violation, change, stops):
     best = BestSolution()
-    assert best.may_stop("it", violation, to_come) is stops
+    assert best.may_stop("it", violation, change) is stops
     assert best.found == ("it" if violation <= 1.0 else None)

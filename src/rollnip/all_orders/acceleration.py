@@ -134,19 +134,19 @@ class BestSolution(Generic[Found]):
     found: Found | None = None
     violation: float = inf
 
-    def may_stop(self, found: Found, violation: float, to_come: float, cut: float = 0.0) -> bool:
+    def may_stop(self, found: Found, violation: float, change: float, cut: float = 0.0) -> bool:
         """Compare a further solution; return whether the iteration may stop.
 
-        It may stop with a solution when the violation or the changes to come are small, or the
-        violation grew again. It may stop without one when the changes to come are small and the
-        violation exceeds the tolerance by more than such changes.
+        It may stop with a solution when the violation or the last change is small, or the violation
+        grew again. It may stop without one when the last change is small and the violation exceeds
+        the tolerance by more than such changes. The sum of the changes to come is no measure: two
+        changes may shrink by chance.
 
         Parameters
         ----------
         found : the solution.
         violation : its violation of the contact conditions, over the tolerance.
-        to_come : the smaller of the last change of its correction and the sum of the changes to
-            come, over the tolerance.
+        change : last change of its correction, over the tolerance.
         cut : violation on account of the cut-off, over the tolerance.
         """
         before, self.violation = self.violation, violation
@@ -154,5 +154,5 @@ class BestSolution(Generic[Found]):
             self.found = found
         enough = CONVERGED * max(1.0, cut)
         if self.found is None:
-            return to_come <= enough < violation - 1.0
-        return min(violation, to_come) <= enough or violation > before
+            return change <= enough < violation - 1.0
+        return min(violation, change) <= enough or violation > before

@@ -187,11 +187,10 @@ def _iterate(
         iterations = iteration + 1
         updated = contact.holding(new)
         before, change = change, _change_of_terms(updated, latest)
-        to_come = min(change, to_come_after(change, before)) / tolerance
         if stage is ContactStage.REFINED and is_full_load:
             checked = _with_own_correction(updated, latest, change)
             violation, cut = checked.residual / tolerance, checked.cut / tolerance
-            if best.may_stop(checked, violation, to_come, cut):
+            if best.may_stop(checked, violation, change / tolerance, cut):
                 cause = "conditions"
                 break
             if iteration == 0:  # with a correction of other tractions: no measure for later ones
@@ -199,6 +198,7 @@ def _iterate(
         held = latest.contact.kernels.held or NO_SECOND_ORDER
         accelerated = contact.holding(mixer.mixed(held, new))
         latest = latest.with_correction_of(accelerated)
+        to_come = min(change, to_come_after(change, before)) / tolerance
         deep = stage is ContactStage.COARSE and is_too_deep(latest, is_rough=False)
         if deep and is_full_load and to_come <= NEARLY_CONVERGED:
             return latest

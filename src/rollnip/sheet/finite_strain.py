@@ -167,16 +167,17 @@ def _iterate(
         updated = formulation.of(contact.holding(new))
         own = updated.with_corrections(iterate)
         before, change = change, own.change
-        to_come = to_come_after(change, before) / tolerance
         if refined is not None and is_full_load:
             violation = formulation.residual_with_terms_of(iterate, own)
             checked = on_last_mesh(updated, refined, own, violation)
-            if best.may_stop((updated, checked, own), checked.residual / tolerance, to_come):
+            if best.may_stop(
+                (updated, checked, own), checked.residual / tolerance, change / tolerance
+            ):
                 break
         accelerated = contact.holding(mixer.mixed(held or NO_SECOND_ORDER, new))
         formulation = formulation.of(accelerated)
-        nearest = min(to_come, change / tolerance)
-        begins = refined is None and is_full_load and nearest <= NEARLY_CONVERGED
+        to_come = min(change, to_come_after(change, before)) / tolerance
+        begins = refined is None and is_full_load and to_come <= NEARLY_CONVERGED
         if begins:
             mixer = AndersonMixer(places_by_the_edges(_edges(iterate)))
         solved.solve(formulation, own, refine=begins)

@@ -52,15 +52,14 @@ def _changes(nip):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("numbers", [range(109520, 109530), range(109530, 109540)])
-def test_sensitivities_of_the_feed_are_those_of_fresh_solves(numbers):
+def test_sensitivities_of_the_feed_are_those_of_fresh_solves():
     """Numbers that nothing was chosen with; of 21 others all 206 were within their claims.
 
     The claim is how far the feed bends between three loads. Where a zone of slip appears between
     them (109523) the feed bends both ways, and a sensitivity is 1.6 times its claim off.
     """
     shares = []
-    for number in numbers:
+    for number in range(109520, 109530):
         nip = random_case(number).nip
         told = {
             one.quantity: one

@@ -70,6 +70,9 @@ def test_layers_leave_a_core():
         "`layers` must leave a rigid core with a radius of at least 0.06 mm, a thousandth of that "
         "of the roller, got 0.001 mm; give thinner layers."
     )
+    almost = refusal(Roller, radius=100.0, layers=(Layer(99.90001, RUBBER),))
+    assert "at least 0.1 mm" in almost
+    assert "got 0.09999 mm" in almost  # to three digits it would be the limit itself
     assert Roller(radius=60.0, layers=(Layer(59.9, RUBBER),)).layers
     assert Roller(radius=60.0, layers=(Layer(59.999, RUBBER),), core=BLACK).layers
 

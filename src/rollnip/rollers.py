@@ -214,9 +214,11 @@ class Roller:
             )
         core, least = self.radius - self.coating_thickness, _LEAST_CORE * self.radius
         if self.layers and self.core is None and core < least:
+            digits = (f"{core:.{count}g}" for count in range(3, 18))
+            got = next(text for text in digits if float(text) < least)
             raise InvalidInputError(
                 f"`layers` must leave a rigid core with a radius of at least {least:g} mm, a "
-                f"thousandth of that of the roller, got {core:.3g} mm; give thinner layers."
+                f"thousandth of that of the roller, got {got} mm; give thinner layers."
             )
 
     @property

@@ -53,6 +53,14 @@ def test_load_width_and_pressure_are_those_of_the_solver(face):
     assert max(verified) < max(solution.error.values())
 
 
+def test_a_refusal_is_in_the_unit_of_its_box(face):
+    """It said "between -0.1 and 0.1 rad, got 1.5707963267948966" beside a box in degrees."""
+    face.type("in-face-skew", "90")
+    face.until("document.getElementById('face-said').textContent !== ''")
+    said = face.page.inner_text("#face-said").replace("\u202f", " ")
+    assert said.endswith("must lie between \u22125.73 deg and 5.73 deg, got 90 deg.")
+
+
 def test_the_drawings_say_how_much_is_exaggerated_and_the_print_is_to_scale(face):
     assert "times larger" in face.page.inner_text("#face-bent figcaption")
     assert "times wider" in face.page.inner_text("#face-print figcaption")

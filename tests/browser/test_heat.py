@@ -154,6 +154,24 @@ def test_what_does_not_fit_is_said(heat, box, text, wanted):
     heat.until("wanted => document.body.innerText.includes(wanted)", arg=wanted)
 
 
+def test_what_the_rail_carries_away_has_its_row(heat):
+    """Nearly all heat left with the rail, and no row said so."""
+    assert cell(heat, "carried", 1) == 0
+    away = cell(heat, "to_air", 1) + cell(heat, "carried", 2)
+    assert away == pytest.approx(cell(heat, "power", 1) + cell(heat, "power", 2), rel=5e-3)
+
+
+def test_a_refusal_is_in_the_unit_of_its_box(heat):
+    heat.type("in-upper-heat-film", "-1e9")
+    heat.until("document.getElementById('heat-said').textContent !== ''")
+    said = heat.page.inner_text("#heat-said").replace("\u202f", " ")
+    assert "film coefficient to the air: must be zero or positive" in said
+    assert said.endswith("got \u22121·10⁹ W/(m² K).")
+    heat.type("in-upper-heat-film", "abc")
+    heat.quiet()
+    assert heat.page.inner_text("#heat-said") == "A box holds what cannot be read."
+
+
 def test_times_of_a_warning_are_in_the_unit_of_the_page(designer):
     """They stood there as "0.007 s" and "4.1e-07 to 0.00041 s"."""
     said = designer.page.evaluate(

@@ -74,6 +74,18 @@ def test_the_field_is_saved_as_csv(designer):
     assert depths[-1] == pytest.approx(12.0)
 
 
+@pytest.mark.parametrize("reading", ["-1", "0"])
+def test_a_reading_is_never_exact(designer, reading):
+    """-1 passed for within 1 mm, and 0 for exact."""
+    page = designer.page
+    designer.tab("measured")
+    page.fill("#measured-value", "11 mm")
+    page.fill("#measured-reading", reading)
+    page.press("#measured-reading", "Enter")
+    page.wait_for_selector("#measured-said .not")
+    assert "must be positive" in page.inner_text("#measured-said")
+
+
 def test_a_measured_width_gives_the_modulus_and_its_band(designer):
     page = designer.page
     designer.tab("measured")

@@ -61,6 +61,47 @@ def _is_put_together(wanted):
     )
 
 
+def reservations():
+    """Sentences of the reservations of all nips that the page solves, 7 for what is filled in."""
+    for path in PACKAGE.rglob("*.py"):
+        if path.parent.name == "rough":
+            continue  # the page has no measured profiles
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Reservation":
+                text = _text(node.args[1])
+                if text is not None:
+                    yield FIELD.sub("7", text)
+
+
+def _text(node):
+    if isinstance(node, ast.JoinedStr):
+        return "".join(one.value if isinstance(one, ast.Constant) else "7" for one in node.values)
+    return node.value if isinstance(node, ast.Constant) else None
+
+
+@pytest.mark.parametrize("sentence", sorted(set(reservations())))
+def test_every_reservation_is_a_known_sentence(sentence):
+    """It may begin with a place and end with a remedy that are put together elsewhere."""
+    known = [HOLE.sub("7", text) for text in KNOWN.values()]
+    begins, ends = sentence.startswith("7"), sentence.endswith("7")
+    words = sentence.strip("7")
+    assert any(
+        sentence == one or (begins and one.endswith(words)) or (ends and one.startswith(words))
+        for one in known
+    )
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_name_of_the_case_file_in_a_sentence_has_a_name_on_the_page(language):
+    """`modulus` is "the modulus" there; a model is named by `inWords` itself."""
+    texts = messages(language)
+    sentences = [text for key, text in texts.items() if key.startswith("solver.")]
+    names = {name for text in sentences for name in re.findall(r"`([^`]+)`", text)}
+    plain = {"face", "scatter"}  # words already
+    models = {name for name in names if name.startswith("geometry = ")}
+    assert [name for name in names - plain - models if f"name.{name}" not in texts] == []
+
+
 def test_a_sentence_of_nobody_is_noticed(monkeypatch):
     monkeypatch.setitem(KNOWN, "solver.nobody", "The moon over the {side} roller is {error} wide.")
     with pytest.raises(AssertionError):

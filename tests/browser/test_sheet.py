@@ -36,6 +36,25 @@ def test_feed_tension_and_strain_are_those_of_the_solver(sheet):
     assert "feed" in designer.saved("csv-figures").lower()
 
 
+def test_the_first_figures_have_their_errors_too(sheet):
+    """A feed stood there with four digits, and its error of the same size only far below."""
+    designer, _ = sheet
+    page = designer.page
+    for key in ("sheet_feed_upper", "sheet_feed_lower", "speed_ratio"):
+        shown = page.inner_text(f'#seconds dd[data-key="{key}"] .error')
+        assert shown == page.inner_text(f'[data-figure="{key}"] .error')
+        assert shown.startswith("± ")
+
+
+def test_the_report_counts_the_frictions_of_both_sides(sheet):
+    designer, _ = sheet
+    page = designer.page
+    page.evaluate("window.print = () => {}")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    said = "Coulomb friction with one coefficient on either side of the sheet."
+    assert said in page.evaluate("document.getElementById('report').textContent")
+
+
 def test_totals_of_what_is_rounding_are_zero(sheet):
     """The traction on the whole face stood there as 1.47e-14 N beside a traction of 0."""
     designer, _ = sheet

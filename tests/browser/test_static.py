@@ -158,3 +158,14 @@ def test_every_message_that_is_asked_for_is_there():
     page = (STATIC / "index.html").read_text(encoding="utf-8")
     asked = re.findall(r'data-say[a-z-]*="([^"]+)"', page)
     assert [key for key in asked if key not in english] == []
+
+
+def test_numbers_of_german_texts_have_the_point_that_figures_have():
+    texts = {**messages("de"), **messages("library-de")}
+    assert [key for key, text in texts.items() if re.search(r"\d,\d", text)] == []
+    constants = (STATIC / "js" / "texts" / "library-de.js").read_text(encoding="utf-8")
+    assert re.findall(r"\d,\d+", constants) == []
+
+
+def test_the_speed_ratio_is_none_of_numbers_of_turns():
+    assert "Drehzahl" not in messages("de")["figure.speed_ratio"]

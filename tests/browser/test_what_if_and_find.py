@@ -20,6 +20,15 @@ def nip(load: float = 4.0, thickness: float = 12.0) -> rn.Nip:
     )
 
 
+def test_large_numbers_at_an_axis_are_powers_of_ten(designer):
+    """1e9 stood there as "1B"."""
+    designer.tab("whatif")
+    swept(designer, "Nip width")
+    axes = "['xaxis', 'yaxis'].map(a => document.getElementById('chart-whatif').layout[a])"
+    formats = designer.page.evaluate(f"{axes}.map(axis => axis.exponentformat)")
+    assert formats == ["power", "power"]
+
+
 def swept(designer, label: str) -> dict[str, list[float | None]]:
     designer.until("document.getElementById('whatif-said').textContent.startsWith('The dot')")
     return designer.trace("chart-whatif", label)

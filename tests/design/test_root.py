@@ -101,6 +101,16 @@ def test_few_solves_where_the_law_is_smooth(law):
     assert answer.solves <= 12
 
 
+def test_the_answer_tells_the_result_that_was_reached():
+    """With a tolerance of 2 % it said 70.000 degC beside a result of 70.045."""
+    evaluate, _ = evaluating(lambda x: x**3)
+    options = {"tolerance": 0.02, "evaluate": evaluate}
+    answer = find(COATED, "nip.load", "nip_width", 30.0, 1.0, 5.0, **options)
+    reached = f"{answer.reached:.3f} mm"
+    assert reached != "30.000 mm"
+    assert f"gives nip_width = {reached}." in answer.message
+
+
 def test_several_answers_are_all_said():
     answer = found(lambda x: (x - 3.0) ** 2, 1.0, 0.0, 6.0)
     assert answer.value == pytest.approx(2.0, abs=1e-3)

@@ -9,6 +9,7 @@ from warm_rollers import PLAIN, RUBBER, WLF, cooled, lossy, press
 
 import rollnip as rn
 from rollnip.heat.conduction import Conduction
+from rollnip.heat.report import heat_lines
 from rollnip.heat.warm import at_temperature
 
 SHIFTED = lossy(shift=WLF, thermal=replace(RUBBER, expansion=1.8e-4))
@@ -155,7 +156,14 @@ def test_a_plane_carries_its_heat_away():
     assert found.converged
     assert found.lower.surface_temperature == 23.0
     assert found.upper.to_nip == pytest.approx(found.upper.power, rel=1e-9)
+    assert found.upper.carried == 0.0
+    assert found.lower.carried == pytest.approx(found.power, rel=1e-9)  # nothing else leaves
     assert abs(found.balance) < 1e-10
+    row = next(line for line in heat_lines(found) if "with the belt or rail" in line)
+    assert row.split()[-3] == "0"
+    assert float(row.split()[-2]) == pytest.approx(found.power, rel=1e-3)
+    rollers = rn.solve_heat(press(lossy()), cooled(), PLAIN)
+    assert not any("belt" in line for line in heat_lines(rollers))
 
 
 def test_a_sheet_takes_heat_along():

@@ -8,7 +8,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.materials import shore_a_band
-from rollnip.web.known import JUDGED, Band, at_end, bands, is_judged
+from rollnip.web.known import JUDGED, JUDGED_SHEETS, Band, accuracy, at_end, bands, is_judged
 
 SOFT, STIFF = (rn.Elastic(modulus=e, poisson=0.45) for e in (3.0, 300.0))
 HARD = {"model": "elastic", "shore_a": 60, "poisson": 0.5}
@@ -106,6 +106,21 @@ def test_the_accuracy_is_stated_for_nips_like_those_compared(layers, traction, e
         friction=0.8,
     )
     assert is_judged(rn.solve(nip)) is expected
+
+
+@pytest.mark.parametrize(("geometry", "expected"), [("finite", True), ("curved", False)])
+def test_with_a_sheet_the_accuracy_is_that_of_nips_with_a_sheet(geometry, expected):
+    """Decision 118: only "finite" was compared; figures of bare nips were shown instead."""
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=(rn.Layer(5.0, SOFT),)),
+        lower=rn.Roller(radius=40.0),
+        normal=rn.LineLoad(1.5),
+        friction=0.8,
+        sheet=rn.Sheet(thickness=0.1, modulus=50.0, poisson=0.3, tension_in=0.2, tension_out=0.2),
+    )
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    assert is_judged(solution) is expected
+    assert accuracy(solution) == (JUDGED_SHEETS["finite"] if expected else {})
 
 
 @pytest.mark.slow

@@ -358,8 +358,8 @@ def _sentences(
     question: _FindQuestion, final: Point, error: float | None, others: Sequence[float]
 ) -> list[str]:
     doubt = "" if error is None else f" ± {format_quantity(error, digits=2)}"
-    wanted = f"{question.quantity} = {question.shown(question.wanted)}"
-    said = [f"{question.path} = {question.said(final.x)}{doubt} gives {wanted}."]
+    reached = f"{question.quantity} = {question.shown(final.y)}"
+    said = [f"{question.path} = {question.said(final.x)}{doubt} gives {reached}."]
     if others:
         also = ", ".join(question.said(x) for x in others)
         said.append(f"So {'does' if len(others) == 1 else 'do'} {also}.")

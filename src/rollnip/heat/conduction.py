@@ -46,6 +46,8 @@ class Outflow:
     viscous, friction : generated in it.
     to_air, to_core, to_nip : that leave it; to_nip: across the nip, into the other surface or a
         sheet.
+    carried : that a plane carries away with it: what is generated in it and enters it; 0 for a
+        roller.
     """
 
     viscous: float
@@ -53,6 +55,7 @@ class Outflow:
     to_air: float
     to_core: float
     to_nip: float
+    carried: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,13 +171,13 @@ class Conduction:
         to_air = grid.film_conductance * (surface - self.ambient)
         viscous = float(sources.lost[side])
         if grid.plane is not None:
-            return Outflow(viscous, friction, 0.0, 0.0, friction - into)
+            return Outflow(viscous, friction, 0.0, 0.0, friction - into, viscous + into)
         held = self._held_surface(side)
         if held is not None:
-            return Outflow(viscous, friction, to_air, into - to_air, friction - into)
+            return Outflow(viscous, friction, to_air, into - to_air, friction - into, 0.0)
         inner = self.part(values, side)[-1] if grid.size else surface
         to_core = _core_conductance(grid) * (float(inner) - _core_temperature(grid))
-        return Outflow(viscous, friction, to_air, to_core, friction - into)
+        return Outflow(viscous, friction, to_air, to_core, friction - into, 0.0)
 
     def inner_face(self, values: Array, side: int) -> float:
         """Return the temperature at the boundary with the core [degC]."""

@@ -72,6 +72,13 @@ ROLLER_FIGURES: Mapping[str, Figure] = by_key(
         digits=3,
     ),
     _F(
+        "carried",
+        "with the belt or rail",
+        "heat per length",
+        "Heat that a plane, a belt or rail, carries away; 0 for a roller, which turns back.",
+        digits=3,
+    ),
+    _F(
         "growth",
         "growth of the radius",
         "length",

@@ -159,7 +159,8 @@ def _figures(solution: HeatSolution, units: Units, said: Collection[str] = ()) -
     for name in _TEMPERATURES:
         yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES], units)
     yield "\nHeat, per length of roller"
-    for name in _POWERS:
+    planes = any(getattr(solution.nip, side).curvature == 0.0 for side in SIDES)
+    for name in (*_POWERS, *(("carried",) if planes else ())):
         yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES], units)
     if solution.heat.sheet is not None:
         yield _row(BALANCE_FIGURES["to_sheet"], [solution], units)

@@ -39,7 +39,9 @@ class RollerHeat(Sealed):
     power : all heat generated in it.
     viscous, friction : the two parts of ``power``.
     to_air, to_core, to_nip : where it goes; to_nip: across the nip, into the other roller or a
-        sheet; negative where heat comes in. A plane carries away the rest.
+        sheet; negative where heat comes in.
+    carried : what a plane, a belt or rail, carries away: all heat generated in it and all that
+        enters it across the nip, for it never comes back; 0 for a roller.
     growth : of the radius [mm].
     """
 
@@ -55,6 +57,7 @@ class RollerHeat(Sealed):
     to_air: float
     to_core: float
     to_nip: float
+    carried: float
     growth: float
 
     def at_depth(self, depth: float) -> float:
@@ -176,10 +179,8 @@ class HeatSolution:
     def balance(self) -> float:
         """Heat generated minus heat that leaves, over all heat; 0 where it is balanced."""
         out = self.to_sheet
-        planes = [grid.plane is not None for grid in self.conduction.grids]
-        for roller, plane in zip((self.upper, self.lower), planes, strict=True):
-            # A plane carries away all its heat, and what enters it across the nip.
-            out += roller.power - roller.to_nip if plane else roller.to_air + roller.to_core
+        for roller in (self.upper, self.lower):
+            out += roller.to_air + roller.to_core + roller.carried
         return (self.power - out) / self.power if self.power > 0.0 else 0.0
 
     def _roller(self, side: Side) -> RollerHeat:
@@ -201,6 +202,7 @@ class HeatSolution:
             to_air=flow.to_air,
             to_core=flow.to_core,
             to_nip=flow.to_nip,
+            carried=flow.carried,
             growth=self.state.growth[index].total,
         )
 

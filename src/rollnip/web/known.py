@@ -2,7 +2,8 @@
 
 The model: how far the figures of a geometry were from finite elements at finite strain, on nips of
 the kind that was compared (docs/geometry.md): coverings without a stiff skin, rolling freely or
-driven with up to a tenth of the load, and no warning (docs/validity.md). The material: Young's
+driven with up to a tenth of the load, and no warning (docs/validity.md); with a sheet, on those of
+decision 118. The material: Young's
 moduli known only within a band are put to their soft ends all together, and to their stiff ends;
 nip width, approach and pressures of an elastic nip lie between, as they go one way with every
 modulus.
@@ -26,6 +27,13 @@ JUDGED: Mapping[Geometry, Mapping[str, float]] = {
     "linear": {"nip_width": 0.038, "approach": 0.135, "peak_pressure": 0.045},
 }
 """Largest relative deviation from finite elements of a geometry, by figure."""
+JUDGED_SHEETS: Mapping[Geometry, Mapping[str, float]] = {
+    "finite": {"nip_width": 0.004, "approach": 0.001, "peak_pressure": 0.008},
+}
+"""The same with a sheet of up to half the width of its narrower contact (decision 118).
+
+Figures of the upper side. Thicker sheets are warned of; other geometries were not compared.
+"""
 BANDED = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")
 """Figures that are given a band: those that go one way with every modulus."""
 _GENTLE = 0.1  # traction over load up to which JUDGED holds
@@ -42,8 +50,16 @@ class Band(NamedTuple):
     high: float
 
 
+def accuracy(solution: Solution) -> Mapping[str, float]:
+    """Return the row of `JUDGED`, or with a sheet of `JUDGED_SHEETS`; empty where there is none."""
+    judged = JUDGED if solution.nip.sheet is None else JUDGED_SHEETS
+    return judged.get(solution.model.geometry, {})
+
+
 def is_judged(solution: Solution) -> bool:
-    """Return whether a nip is of the kind that `JUDGED` speaks of."""
+    """Return whether a nip is of the kind that its row of `accuracy` speaks of."""
+    if not accuracy(solution):
+        return False
     rollers = (solution.nip.upper, solution.nip.lower)
     gentle = abs(solution.traction) <= _GENTLE * solution.load
     return gentle and not solution.warnings and not any(_has_stiff_skin(one) for one in rollers)

@@ -40,7 +40,7 @@ from rollnip.web.faces import Faces
 from rollnip.web.heats import Heats
 from rollnip.web.impressions import read_impression
 from rollnip.web.kept import Kept
-from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
+from rollnip.web.known import accuracy, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
 from rollnip.web.patches import solved_patch
@@ -202,7 +202,7 @@ class Tasks:
         found = bands(base, self._library.materials, body["measured"])
         answer: dict[str, Any] = {
             "geometry": solution.model.geometry,
-            "accuracy": JUDGED[solution.model.geometry],
+            "accuracy": accuracy(solution),
             "is_judged": is_judged(solution),
             "materials": [band._asdict() for band in found],
             "figures": {},

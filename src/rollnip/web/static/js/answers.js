@@ -55,9 +55,19 @@ function second(key, all, units, known) {
     "div",
     {},
     el("dt", { text: label }),
-    el("dd", { "data-key": key }, ...withUnit(shown)),
+    el("dd", { "data-key": key }, ...withUnit(shown), errorText(errorLine(all, key, dimension, units))),
     bandLine(key, dimension, units, known),
   );
+}
+
+/** The estimated error of a figure as it stands behind it; "" where it says nothing. */
+function errorLine(all, key, dimension, units) {
+  const noted = errorOf(all, key);
+  return noted ? `± ${units.error(noted, dimension)}` : "";
+}
+
+function errorText(error) {
+  return error ? el("span", { class: "error", text: error }) : null;
 }
 
 /** Between what the material leaves a figure, where that is known. */
@@ -80,8 +90,7 @@ function showMini(result, units) {
 function showFigures(all, units, known) {
   const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
   const rows = shown.map(({ key, label, dimension, digits, hint }) => {
-    const noted = errorOf(all, key);
-    const error = noted ? `± ${units.error(noted, dimension)}` : "";
+    const error = errorLine(all, key, dimension, units);
     const band = bandLine(key, dimension, units, known);
     return figure(label, key, units.format(all[key], dimension, digits), error, hint(all, units), band);
   });
@@ -100,7 +109,7 @@ function figure(label, key, shown, error, hint, band = null) {
       "dd",
       { "data-figure": key },
       ...withUnit(shown),
-      error ? el("span", { class: "error", text: error }) : null,
+      errorText(error),
     ),
     band,
     hint ? el("dd", { class: "note", text: hint }) : null,
@@ -111,8 +120,12 @@ function figure(label, key, shown, error, hint, band = null) {
 function showWarnings(result, units) {
   byId("warnings").replaceChildren(...sentenceItems(result.warnings, units));
   byId("warnings-card").hidden = result.warnings.length === 0;
-  const isForeign = result.warnings.some((text) => languageOf(text) !== LANGUAGE);
-  byId("warnings-english").textContent = isForeign ? say("solver.english") : "";
+  byId("warnings-english").textContent = foreignHint(result.warnings);
+}
+
+/** That some sentences of the solver stand in English; "" where all are in the language of the page. */
+export function foreignHint(sentences) {
+  return sentences.some((text) => languageOf(text) !== LANGUAGE) ? say("solver.english") : "";
 }
 
 /** Sentences of the solver as items of a list, each marked with the language that it stands in. */

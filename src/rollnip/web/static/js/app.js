@@ -17,14 +17,13 @@ import { Inputs } from "./inputs.js";
 import { examplesDialog } from "./menus.js";
 import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
-import { placeInWords, same } from "./paths.js";
+import { same } from "./paths.js";
+import { blamed, complaintsOf } from "./places.js";
 import { modulusOf } from "./materials.js";
 import { PatchRunner } from "./patchrunner.js";
 import { linkOf } from "./permalink.js";
 import { Printing } from "./printing.js";
-import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
-import { inWords } from "./said.js";
 import { remember, remembered } from "./saved.js";
 import { Store } from "./store.js";
 import { Tabs } from "./tabs.js";
@@ -49,6 +48,7 @@ export class App extends Actions {
     this.failure = null; // {tree, error} where the design at hand has no answer
     this.broken = null; // why a link could not be opened, until something else is asked for
     this.isOut = false; // whether the server has stopped answering
+    this.isUnread = false; // whether a box held what cannot be read when it was last asked
     this.reading = 0; // texts that the server is reading
     this.isMoving = false; // whether a slider moves
     this.stopIdling = () => {}; // gives up the wait for a slider to rest
@@ -156,8 +156,9 @@ export class App extends Actions {
 
   /** How what is shown stands to the inputs: only "settled" is their answer. */
   standing() {
-    if (this.failure || this.broken) return "none";
-    if (this.inputs.isUnread()) return "unread";
+    if (this.broken) return "none";
+    if (this.inputs.isUnread()) return "unread"; // what was refused before is not what stands there now
+    if (this.failure) return "none";
     if (this.reading > 0 || this.snapshot?.tree !== this.store.state.case) return "computing";
     return this.snapshot.state;
   }
@@ -169,9 +170,12 @@ export class App extends Actions {
     showStanding(standing, this.snapshot, this.units());
     if (this.isOut) alarm(say("outage.title"), [say("outage.text")]);
     else if (this.broken) this.alarmLink();
-    else if (this.failure) this.alarmFailure();
+    else if (standing === "none") this.alarmFailure();
     else if (standing === "settled" && !this.snapshot.result.converged) unsoundAlarm(this.snapshot.result, this.units());
     else clearAlarm();
+    const isUnread = standing === "unread";
+    if (isUnread !== this.isUnread) this.tabs?.open.refresh?.();
+    this.isUnread = isUnread;
   }
 
   alarmLink() {
@@ -244,7 +248,7 @@ export class App extends Actions {
   }
 
   failed(tree, error) {
-    const details = (error.details ?? []).map((one) => ({ ...one, path: one.path || inputSaid(one.message, tree) }));
+    const details = (error.details ?? []).map((one) => blamed({ ...one, path: one.path || inputSaid(one.message, tree) }, tree));
     this.failure = { tree, error: { message: error.message, details } };
     this.complainAt();
     this.stand();
@@ -274,11 +278,7 @@ export class App extends Actions {
   /** Each complaint at its input and, in words, above everything. */
   alarmFailure() {
     const { tree, error } = this.failure;
-    const details = error.details.map(({ path, message }) => ({
-      path,
-      message: inWords(message, path, this.units(), inputAt(path, tree)),
-    }));
-    alarm(say("alarm.none"), sentencesOf({ message: error.message, details }, (path) => placeSaid(path, tree)));
+    alarm(say("alarm.none"), complaintsOf(error, tree, this.units()));
   }
 
   /** The same answer, or that there is none, in other units, colours or tabs. */
@@ -343,10 +343,4 @@ export class App extends Actions {
 function inputSaid(message, tree) {
   const [, name] = message.match(/^`([a-z_]+)` /) ?? [];
   return typeof tree.nip[name] === "number" ? `nip.${name}` : "";
-}
-
-/** Where a complaint belongs: an input of the nip by its label. */
-function placeSaid(path, tree) {
-  const label = path.startsWith("nip.") ? inputAt(path, tree).label : null;
-  return label ? `${label}: ` : placeInWords(path);
 }

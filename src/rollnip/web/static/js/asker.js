@@ -1,6 +1,7 @@
 // Asks the server for what stands beside the figures of the nip, such as its face; the newest design wins.
 
 import { isAbort, post } from "./api.js";
+import { blamed } from "./places.js";
 
 /**
  * Holds the last answer of a route to the design at hand. One request is under way, the newest
@@ -63,7 +64,7 @@ export class Asker {
     } catch (error) {
       if (isAbort(error)) return;
       const { fieldOf = (path) => path } = this.route;
-      const details = (error.details ?? []).map((one) => ({ ...one, path: fieldOf(one.path ?? "") }));
+      const details = (error.details ?? []).map((one) => blamed({ ...one, path: fieldOf(one.path ?? "") }, tree));
       this.failure = { key, error: { message: error.message, details } };
     }
     this.told();

@@ -87,6 +87,7 @@ export function layoutOf(palette, x, y, { along = "", ...more } = {}) {
     zerolinewidth: 1,
     linecolor: palette.bound,
     automargin: true,
+    exponentformat: "power", // 10⁹, not 1B
     fixedrange: true,
   });
   const { xaxis = {}, yaxis = {}, ...rest } = more;

@@ -7,12 +7,11 @@ import { getAt, idOf } from "./paths.js";
 import { inputAt } from "./quantities.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
-import { joined, typable } from "./units.js";
+import { askedAs, joined, typable } from "./units.js";
 
 const STEPS = 500; // of a slider
 const DIGITS = 3; // a slider gives round values in the unit shown
 const BOX_DIGITS = 5;
-const ASKED = { "angle of axes": "angle", share: "ratio", "roller force": "force", "air pressure": "pressure" };
 
 /** A control of the number at `path`. `app` is {store, units()}. */
 export class Control {
@@ -211,9 +210,8 @@ export class Control {
 
 /** The question what a text means; a plain number is in the unit shown. */
 export function questionOf(text, dimension, units, hardness = false) {
-  const asked = ASKED[dimension] ?? dimension;
   const unit = units.of(dimension).name;
-  return { text, dimension: asked, unit, hardness };
+  return { text, dimension: askedAs(dimension), unit, hardness };
 }
 
 /** A value to three digits; on a linear scale to a round part of the `span`, and to zero beside it. */

@@ -1,17 +1,17 @@
 // Along the face: sliders for crown and load, the bent rollers, the print of the nip, curves, figures.
 
-import { sentenceItems } from "./answers.js";
-import { isAbort, post, sentencesOf } from "./api.js";
+import { foreignHint, sentenceItems } from "./answers.js";
+import { isAbort, post } from "./api.js";
 import { Chart, layoutOf, line, titled } from "./charts.js";
 import { Control } from "./control.js";
 import { button, el, select, withUnit } from "./dom.js";
-import { SIDES, facePaths, withFace } from "./face.js";
+import { SIDES, withFace } from "./face.js";
 import { bentPicture, printPicture } from "./facedrawing.js";
 import { ImpressionPart } from "./impression.js";
-import { getAt, placeInWords, same, setAt } from "./paths.js";
+import { getAt, same, setAt } from "./paths.js";
+import { complaintsOf, refused } from "./places.js";
 import { PressControl, pressKind } from "./press.js";
-import { faceLabel, figureIn } from "./quantities.js";
-import { inWords } from "./said.js";
+import { figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
 
@@ -87,6 +87,7 @@ export class FaceView {
     this.chart = new Chart(el("div", { class: "chart low", id: "chart-face" }));
     this.figures = el("div", { class: "figures", id: "face-figures" });
     this.notes = el("ul", { class: "warnings", id: "face-notes" });
+    this.english = el("p", { class: "hint", id: "face-english" });
     this.asks = el("div", { class: "ask" });
     this.found = el("div", { role: "status", id: "crown-said" });
     const exports = ["PNG", "SVG", "CSV"].map((format) =>
@@ -98,7 +99,7 @@ export class FaceView {
     );
     this.foot = el("div", { class: "chart-foot" }, el("p", { class: "hint", text: say("face.foot") }), el("div", { class: "row" }, ...exports));
     this.impression = new ImpressionPart(app);
-    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.busy, this.pictures, this.notes, this.asks, this.chart.node, this.foot, this.figures, this.found, this.impression.node);
+    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.busy, this.pictures, this.notes, this.english, this.asks, this.chart.node, this.foot, this.figures, this.found, this.impression.node);
     this.node = el("div", {}, this.none, this.whole);
     new ResizeObserver(() => this.drawn && this.draw(this.drawn.tree, this.drawn.face)).observe(this.pictures);
   }
@@ -119,22 +120,14 @@ export class FaceView {
     for (const control of this.controls) control.refresh(tree);
     this.impression.refresh(tree);
     const failure = this.app.faces.failureOf(tree);
-    this.said.textContent = failure ? this.sentence(failure, tree) : "";
+    this.said.textContent = failure ? refused(failure, tree, this.app) : "";
     this.said.hidden = !failure;
     const face = this.app.faces.of(tree);
     this.busy.hidden = Boolean(face || failure);
-    for (const node of [this.pictures, this.chart.node, this.foot, this.notes]) node.hidden = !face && !this.drawn;
+    for (const node of [this.pictures, this.chart.node, this.foot, this.notes, this.english]) node.hidden = !face && !this.drawn;
     if (face) this.draw(tree, face);
     for (const node of [this.pictures, this.chart.node, this.figures]) node.classList.toggle("old", !face);
     if (this.advice && !same(this.advice.tree, tree)) this.found.replaceChildren();
-  }
-
-  sentence(failure, tree) {
-    const units = this.app.units();
-    const known = facePaths(tree);
-    const place = (path) => (known.includes(path) ? `${faceLabel(path, tree)}: ` : placeInWords(path));
-    const said = failure.details.map(({ path, message }) => place(path) + inWords(message, path, units));
-    return said.join(" ") || failure.message;
   }
 
   /** Sliders and questions, anew where the shape of the design changed. */
@@ -194,6 +187,7 @@ export class FaceView {
     this.chart.show(faceChart(face, this.curve, look.units, look.palette));
     const notes = face.converged ? face.warnings : [face.status, ...face.warnings];
     this.notes.replaceChildren(...sentenceItems(notes, look.units));
+    this.english.textContent = foreignHint(notes);
     this.figures.replaceChildren(...faceRows(face, look.units).map(figureOf));
   }
 
@@ -229,7 +223,7 @@ export class FaceView {
       this.tell(tree, await post("/api/crown", body, this.asking.signal));
     } catch (error) {
       if (isAbort(error)) return;
-      this.found.replaceChildren(el("div", { class: "found not" }, el("p", { text: sentencesOf(error).join(" ") })));
+      this.found.replaceChildren(el("div", { class: "found not" }, el("p", { text: complaintsOf(error, tree, this.app.units()).join(" ") })));
     }
   }
 

@@ -1,13 +1,15 @@
 // Heat: how warm the rollers get, where the heat goes, how they warm up, when they run away.
 
-import { isAbort, post, sentencesOf } from "./api.js";
+import { foreignHint, sentenceItems } from "./answers.js";
+import { isAbort, post } from "./api.js";
 import { Chart } from "./charts.js";
 import { button, el, select, withUnit } from "./dom.js";
-import { coreKind, heatPaths, losesHeat, withHeat } from "./heat.js";
+import { coreKind, losesHeat, withHeat } from "./heat.js";
 import { branchChart, depthChart, depthRows, warmChart } from "./heatcharts.js";
-import { placeInWords, same } from "./paths.js";
+import { same } from "./paths.js";
+import { complaintsOf, refused } from "./places.js";
 import { pressKind } from "./press.js";
-import { faceLabel, figureIn, figureOfNip } from "./quantities.js";
+import { figureIn, figureOfNip } from "./quantities.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
@@ -43,9 +45,10 @@ export class HeatView {
     this.chart = new Chart(el("div", { class: "chart low", id: "chart-heat" }));
     this.tables = el("div", { class: "heat-tables", id: "heat-tables" });
     this.notes = el("ul", { class: "warnings", id: "heat-notes" });
+    this.english = el("p", { class: "hint", id: "heat-english" });
     this.asks = el("div", { class: "ask" });
     this.more = new Map(["warm-up", "runaway"].map((kind) => [kind, new Further(kind, app)]));
-    this.whole = el("div", { class: "face heat" }, this.said, this.verdict, this.chart.node, this.foot(), this.tables, this.notes, this.asks, ...Array.from(this.more.values(), ({ node }) => node));
+    this.whole = el("div", { class: "face heat" }, this.said, this.verdict, this.chart.node, this.foot(), this.tables, this.notes, this.english, this.asks, ...Array.from(this.more.values(), ({ node }) => node));
     this.node = el("div", {}, this.none, this.whole);
   }
 
@@ -74,7 +77,7 @@ export class HeatView {
     if (!tree.heat) return;
     this.build(view);
     const failure = this.app.heats.failureOf(tree);
-    this.said.textContent = failure ? this.sentence(failure, tree) : "";
+    this.said.textContent = failure ? refused(failure, tree, this.app) : "";
     this.said.hidden = !failure;
     const heat = this.app.heats.of(tree);
     if (heat) this.draw(tree, heat);
@@ -82,14 +85,6 @@ export class HeatView {
     this.verdict.hidden = Boolean(failure);
     for (const node of [this.chart.node, this.tables]) node.classList.toggle("old", !heat);
     for (const one of this.more.values()) one.refresh(tree, heat);
-  }
-
-  sentence(failure, tree) {
-    const units = this.app.units();
-    const known = heatPaths(tree);
-    const place = (path) => (known.includes(path) ? `${faceLabel(path, tree)}: ` : placeInWords(path));
-    const said = failure.details.map(({ path, message }) => place(path) + inWords(message, path, units));
-    return said.join(" ") || failure.message;
   }
 
   /** The questions, anew where what can be asked has changed. */
@@ -117,9 +112,10 @@ export class HeatView {
     this.tables.replaceChildren(...(heat.converged ? heatTables(heat, tree, units) : []));
     const said = this.app.result()?.warnings ?? []; // of the nip, which has its own place
     const own = heat.warnings.filter((text) => !said.includes(text));
-    const notes = [...(heat.converged ? [] : [heat.status]), ...own].map((text) => inWords(text, "", units));
-    if (!losesHeat(tree)) notes.unshift(say("heat.elastic"));
-    this.notes.replaceChildren(...notes.map((text) => el("li", { text })));
+    const notes = [...(heat.converged ? [] : [heat.status]), ...own];
+    const elastic = losesHeat(tree) ? [] : [el("li", { text: say("heat.elastic") })];
+    this.notes.replaceChildren(...elastic, ...sentenceItems(notes, units));
+    this.english.textContent = foreignHint(notes);
   }
 
   /** Whether what is drawn is of another design. */
@@ -169,7 +165,7 @@ class Further {
     } catch (error) {
       if (isAbort(error)) return;
       this.said.classList.add("wrong");
-      this.said.textContent = sentencesOf(error).join(" ");
+      this.said.textContent = complaintsOf(error, tree, this.app.units()).join(" ");
     } finally {
       if (this.asking === asking) this.asking = null;
     }
@@ -242,6 +238,7 @@ export function heatRows(heat, tree, units) {
   const both = (key) => row(key, SIDES.map((side) => heat[side][key]), figureIn("heat", key));
   const temperatures = TEMPERATURES.map(both);
   const powers = POWERS.filter((key) => key !== "to_core" || SIDES.some((side) => tree[side].heat && coreKind(tree[side].heat) !== "insulated")).map(both);
+  if (SIDES.some((side) => tree[side].radius === "inf")) powers.push(both("carried"));
   if (tree.heat.sheet) powers.push(row("to_sheet", [heat.to_sheet], figureIn("heat", "to_sheet")));
   powers.push(both("power"));
   const nip = NIP.map((key) => row(`nip-${key}`, [heat.cold[key], heat.warm[key]], figureOfNip(key)));

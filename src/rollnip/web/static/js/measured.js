@@ -85,7 +85,8 @@ export class MeasuredView {
     this.said.replaceChildren(el("p", { class: "hint", text: say("measured.busy") }));
     try {
       const value = await this.read(ask("measured-value"), abort.signal);
-      const reading = Math.abs(await this.read(ask("measured-reading") || "0", abort.signal));
+      const reading = await this.read(ask("measured-reading"), abort.signal);
+      if (reading <= 0) throw new Error(say("measured.positive"));
       const start = this.start(tree, path);
       const found = [];
       for (const wanted of [value, value - reading, value + reading])

@@ -1,6 +1,6 @@
 // Places in a case: "upper.layers[0].material.shore_a". Trees are never changed, only copied.
 
-import { say } from "./texts.js";
+import { say, sayOr } from "./texts.js";
 
 const TITLES = { sheet: "sheet.title", face: "face.title", heat: "heat.title" };
 
@@ -43,14 +43,18 @@ export function placeInWords(path) {
   const words = parts.map((step, i) => {
     if (typeof step === "number") return null;
     if (step === "upper" || step === "lower") return say(`roller.${step}`);
-    if (step === "radius") return say("path.diameter");
     if (step in TITLES) return say(TITLES[step]);
     const next = parts[i + 1];
-    if (typeof next === "number") return say("path.numbered", { name: step.replace(/s$/, ""), number: next + 1 });
-    return step.replace(/_/g, " ");
+    if (typeof next === "number") return say("path.numbered", { name: named(step.replace(/s$/, "")), number: next + 1 });
+    return named(step);
   });
   const text = words.filter(Boolean).join(", ");
   return text ? `${text.charAt(0).toUpperCase()}${text.slice(1)}: ` : "";
+}
+
+/** A key of the case file as a word. */
+function named(step) {
+  return sayOr(`path.${step}`, step.replace(/_/g, " "));
 }
 
 /** Whether two trees hold the same. */

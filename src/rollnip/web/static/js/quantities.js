@@ -308,8 +308,13 @@ export function inputsOf(tree) {
 function named(where, input) {
   return {
     ...input,
-    label: `${where}: ${input.label.startsWith("Poisson") ? input.label : firstInText(input.label)}`,
+    label: `${where}: ${withinText(input.label)}`,
   };
+}
+
+/** A label behind something else; a name keeps its capital. */
+export function withinText(label) {
+  return label.startsWith("Poisson") ? label : firstInText(label);
 }
 
 const FAR = { metric: "m", us: "ft" };

@@ -43,10 +43,6 @@ const GEOMETRIES = {
 };
 const HARDNESS =
   say("assume.hardness");
-const ASSUMPTIONS = [
-  say("assume.steady"),
-  say("assume.material"),
-];
 
 /** Fill the page that is printed. `answer` is {tree, result, surfaces, known}. */
 export function fillReport(answer, units, palette, date) {
@@ -127,7 +123,8 @@ function assumptionsOf(tree, { geometry }) {
   const layers = [...tree.upper.layers, ...tree.lower.layers];
   const byHardness = layers.some(({ material: one }) => one.shore_a !== undefined);
   const along = say(tree.face ? "assume.face" : "assume.plane");
-  return [GEOMETRIES[geometry], along, ...ASSUMPTIONS, ...(byHardness ? [HARDNESS] : [])];
+  const steady = say(tree.sheet ? "assume.steady-sheet" : "assume.steady");
+  return [GEOMETRIES[geometry], along, steady, say("assume.material"), ...(byHardness ? [HARDNESS] : [])];
 }
 
 function picture(node, label) {

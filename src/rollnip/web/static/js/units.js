@@ -2,7 +2,8 @@
 
 import { LARGE, RESULT_UNITS } from "./figures.js";
 
-const DIGITS = 4;
+export const DIGITS = 4;
+const ASKED = { "angle of axes": "angle", share: "ratio", "roller force": "force", "air pressure": "pressure" };
 const METRIC_LARGE = { "roller force": { from: 1e5, unit: "kN", scale: 1e3 } }; // of a press
 const WRITTEN = {
   degC: "°C",
@@ -87,6 +88,11 @@ export class Units {
   list(values, dimension) {
     return values.map((value) => (value === null ? null : this.shown(value, dimension)));
   }
+}
+
+/** The dimension that the server reads and writes one of the page as. */
+export function askedAs(dimension) {
+  return ASKED[dimension] ?? dimension;
 }
 
 /** A unit as a person writes it. */

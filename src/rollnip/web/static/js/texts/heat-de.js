@@ -77,6 +77,7 @@ export const HEAT_DE = {
   "figure.heat_to_air": "An die Luft",
   "figure.heat_to_core": "An den Kern",
   "figure.heat_to_nip": "Durch den Spalt",
+  "figure.heat_carried": "Mit Band oder Schiene fort",
   "figure.heat_to_sheet": "In die Bahn",
   "figure.heat_power": "Alle Wärme, die entsteht",
   "heat.closed": "Wärme, die entsteht, und Wärme, die abfließt, sind bis auf {balance} % gleich.",

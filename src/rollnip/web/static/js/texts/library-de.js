@@ -2,12 +2,12 @@
 
 const PAPER = "Braat und Kalker (1993)";
 const RADII = "Die Radien sind nur für Konfiguration I angegeben: hier als gleich angenommen.";
-const BLACK = "Die Querdehnzahl der schwarzen Schicht fehlt dort: 0,5 angenommen wie für die durchsichtige.";
+const BLACK = "Die Querdehnzahl der schwarzen Schicht fehlt dort: 0.5 angenommen wie für die durchsichtige.";
 const DRIVES = "Welche Walze treibt, ist nicht angegeben: die obere angenommen.";
 const FOUR =
-  "Angegeben sind nur Moduln und Dicken. Angenommen: Radien 50 und 25 mm, Linienlast 5 N/mm, keine Reibung, Querdehnzahl 0,3 der harten und 0,5 der weichen Schicht.";
+  "Angegeben sind nur Moduln und Dicken. Angenommen: Radien 50 und 25 mm, Linienlast 5 N/mm, keine Reibung, Querdehnzahl 0.3 der harten und 0.5 der weichen Schicht.";
 const FIVE =
-  "Radien, Reibung und die andere Walze sind nicht angegeben: 50 und 25 mm, 2,7 und starr angenommen. Die Linienlast ist als 7,0 N/mm gelesen; im Druck fehlt ihr Zeichen.";
+  "Radien, Reibung und die andere Walze sind nicht angegeben: 50 und 25 mm, 2.7 und starr angenommen. Die Linienlast ist als 7.0 N/mm gelesen; im Druck fehlt ihr Zeichen.";
 
 export const LIBRARY_DE = {
   "example.shore-a": "Gummibezug nach seiner Härte (Shore A)",
@@ -15,7 +15,7 @@ export const LIBRARY_DE = {
   "example.laminating": "Kaschierspalt",
   "example.laminating.hint": "Eine Walze mit Silikonbezug drückt auf eine Stahlwalze, die durch die Bahn angetrieben wird. Übliche Maße; Härte, Last und Reibung sind angenommen. Die Bahn selbst ist weggelassen.",
   "example.printing-blanket": "Drucktuch mit kompressibler Schicht",
-  "example.printing-blanket.hint": "Ein Offset-Drucktuch zwischen seinem Zylinder und dem Gegendruckzylinder, um ein Zehntel Millimeter zugestellt. Dicke 1,95 mm und Folge der Schichten wie üblich: Deckschicht, kompressible Schicht, Gewebe. Moduln und Querdehnzahl der kompressiblen Schicht sind angenommen: am eigenen Tuch messen.",
+  "example.printing-blanket.hint": "Ein Offset-Drucktuch zwischen seinem Zylinder und dem Gegendruckzylinder, um ein Zehntel Millimeter zugestellt. Dicke 1.95 mm und Folge der Schichten wie üblich: Deckschicht, kompressible Schicht, Gewebe. Moduln und Querdehnzahl der kompressiblen Schicht sind angenommen: am eigenen Tuch messen.",
   "example.soft-press": "Presswalze mit weichem Bezug",
   "example.soft-press.hint": "Eine Presswalze mit Polyurethanbezug gegen eine Stahlwalze wie in der Papierherstellung. Durchmesser, Bezug, Linienlast und Geschwindigkeit wie üblich; die Härte gibt den Modul nur grob.",
   "example.drive-roller": "Antriebswalze und gebremste Gegenwalze, mit Verlusten",
@@ -23,9 +23,9 @@ export const LIBRARY_DE = {
   "example.press-driven": "Pressspalt, angetrieben",
   "example.press-driven.hint": "Eine bezogene Walze treibt eine Stahlwalze durch den Spalt: eine Arbeitsschicht auf weicherem Grund. Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
   "example.press-face": "Presse über ihre Breite",
-  "example.press-face.hint": "Eine bezogene Walze auf einer Stahlwalze, 1,6 m breit: welche Bombierung, und wie gleichmäßig ist der Spalt? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
+  "example.press-face.hint": "Eine bezogene Walze auf einer Stahlwalze, 1.6 m breit: welche Bombierung, und wie gleichmäßig ist der Spalt? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
   "example.web-face": "Zugspalt einer Bahn über ihre Breite",
-  "example.web-face.hint": "Zwei Gummiwalzen, durch Zahnräder verbunden, ziehen Zeitungspapier von 1,6 m Breite: Wirft es Falten? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
+  "example.web-face.hint": "Zwei Gummiwalzen, durch Zahnräder verbunden, ziehen Zeitungspapier von 1.6 m Breite: Wirft es Falten? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
   "example.configuration-1-driven": "Konfiguration I, angetrieben",
   "example.configuration-1-driven.hint": `${PAPER}, Bild 6B. Alle Zahlen außer der Geschwindigkeit sind die des Aufsatzes. ${DRIVES}`,
   "example.configuration-1-free": "Konfiguration I, frei rollend",
@@ -35,21 +35,21 @@ export const LIBRARY_DE = {
   "example.configuration-2-free": "Konfiguration II, frei rollend",
   "example.configuration-2-free.hint": `${PAPER}, Bild 7A. ${RADII} ${BLACK}`,
   "example.configuration-3-driven": "Konfiguration III, angetrieben",
-  "example.configuration-3-driven.hint": `${PAPER}, Bild 8B. ${RADII} Querdehnzahlen fehlen: 0,5 angenommen; Reibung wie in Konfiguration II angenommen. ${DRIVES}`,
+  "example.configuration-3-driven.hint": `${PAPER}, Bild 8B. ${RADII} Querdehnzahlen fehlen: 0.5 angenommen; Reibung wie in Konfiguration II angenommen. ${DRIVES}`,
   "example.configuration-3-free": "Konfiguration III, frei rollend",
-  "example.configuration-3-free.hint": `${PAPER}, Bild 8A. ${RADII} Querdehnzahlen fehlen: 0,5 angenommen; Reibung wie in Konfiguration II angenommen.`,
+  "example.configuration-3-free.hint": `${PAPER}, Bild 8A. ${RADII} Querdehnzahlen fehlen: 0.5 angenommen; Reibung wie in Konfiguration II angenommen.`,
   "example.figure-4-no-top-layer": "Bild 4, Deckschicht 0 mm",
   "example.figure-4-no-top-layer.hint": `Die weiche Schicht von Bild 4 ohne ihre harte Deckschicht. ${PAPER}. ${FOUR}`,
-  "example.figure-4-top-layer-0.025mm": "Bild 4, Deckschicht 0,025 mm",
+  "example.figure-4-top-layer-0.025mm": "Bild 4, Deckschicht 0.025 mm",
   "example.figure-4-top-layer-0.025mm.hint": `Eine harte Deckschicht auf einer weichen, von einer starren Walze gedrückt. ${PAPER}. ${FOUR}`,
-  "example.figure-4-top-layer-0.1mm": "Bild 4, Deckschicht 0,1 mm",
+  "example.figure-4-top-layer-0.1mm": "Bild 4, Deckschicht 0.1 mm",
   "example.figure-4-top-layer-0.1mm.hint": `Eine harte Deckschicht auf einer weichen, von einer starren Walze gedrückt. ${PAPER}. ${FOUR}`,
-  "example.figure-4-top-layer-0.2mm": "Bild 4, Deckschicht 0,2 mm",
+  "example.figure-4-top-layer-0.2mm": "Bild 4, Deckschicht 0.2 mm",
   "example.figure-4-top-layer-0.2mm.hint": `Eine harte Deckschicht auf einer weichen, von einer starren Walze gedrückt. ${PAPER}. ${FOUR}`,
   "example.figure-5-elastic-driven": "Bild 5, elastisch, angetrieben",
   "example.figure-5-elastic-driven.hint": `Eine elastische Schicht, die treibt: die Umfangskraft macht den Druck schief. ${PAPER}, Bild 5A. ${FIVE} ${DRIVES}`,
   "example.figure-5-viscoelastic-free": "Bild 5, viskoelastisch, frei rollend",
-  "example.figure-5-viscoelastic-free.hint": `Eine viskoelastische Schicht, die frei rollt: die Verluste des Werkstoffs machen den Druck schief. ${PAPER}, Bild 5B. ${FIVE} Der Modul 2,0 MPa ist als der relaxierte genommen.`,
+  "example.figure-5-viscoelastic-free.hint": `Eine viskoelastische Schicht, die frei rollt: die Verluste des Werkstoffs machen den Druck schief. ${PAPER}, Bild 5B. ${FIVE} Der Modul 2.0 MPa ist als der relaxierte genommen.`,
   "library.polyurethane": "Polyurethan (PUR), nach Härte",
   "library.polyurethane.hint": "Gegossen oder thermoplastisch; zäh, fest gegen Abrieb und Öl. Estertypen altern in heißem Wasser. Es wird weicher, wenn es in einem schnellen Spalt warm wird: warm messen, was warm läuft.",
   "library.epdm": "EPDM, nach Härte",
@@ -70,9 +70,9 @@ export const LIBRARY_DE = {
   "library.paper-transparent": "Durchsichtiger Gummi des Aufsatzes",
   "library.paper-transparent.hint": "Weiche Schicht der Glaswalze von Konfiguration I und II. Dort gemessen; Querdehnzahl wie angegeben.",
   "library.paper-black": "Schwarzer Gummi des Aufsatzes",
-  "library.paper-black.hint": "Schicht der schwarzen Walze von Konfiguration II und III. Die Querdehnzahl fehlt dort: 0,5 angenommen.",
+  "library.paper-black.hint": "Schicht der schwarzen Walze von Konfiguration II und III. Die Querdehnzahl fehlt dort: 0.5 angenommen.",
   "library.paper-soft": "Weicher Gummi des Aufsatzes",
-  "library.paper-soft.hint": "Untere Schicht der Zweischichtwalze von Konfiguration III. Die Querdehnzahl fehlt dort: 0,5 angenommen.",
+  "library.paper-soft.hint": "Untere Schicht der Zweischichtwalze von Konfiguration III. Die Querdehnzahl fehlt dort: 0.5 angenommen.",
   "library.paper-viscoelastic": "Viskoelastischer Gummi des Aufsatzes",
   "library.paper-viscoelastic.hint": "Eine Relaxationszeit, zu Bild 5B: ein Modellwerkstoff, der die Wirkung von Verlusten zeigt, kein gemessener Gummi. Der Modul 2 MPa ist als der relaxierte genommen.",
   "library.steel": "Stahl",

@@ -152,6 +152,8 @@ export const SOLVER_EN = {
   "solver.face-open": "The nip is open over a part of the face: {places}.",
   "solver.face-closed": "{why} With a sheet it must be closed all over the face; try a smaller crown, skew or offset, or a larger load.",
   "solver.face-all-slides": "Over a part of the face the surfaces slide all over the nip: one creepage for the whole face is too far from that of free rolling there.",
+  "solver.face-pushed": "The nip pushes the sheet back at the inlet {places}, by up to {tension}: a thin sheet goes slack or wrinkles there.",
+  "solver.face-bends-freely": "Along the face the sheet bends freely. Its stiffness against bending and its tension, which count over {share} % of the nip width, are left out: a cross-section solved without the face, with `bending = true`, shows what they change.",
   "solver.face-error": "The estimated error over the face is {error}, more than {limit}.",
   "solver.face-error-ends": "The estimated error over the face is {error}, more than {limit}. Most of it comes from the ends of the face, which is short: accept it with a larger tolerance, or take `ends` = \"plane\" or a longer face.",
   "solver.face-deep-end": "At an end of the face the approach is more than {limit} % of the coverings' thickness; what the ends add to the load is computed for small strains and may be off by more than 5 %.",

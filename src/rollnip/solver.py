@@ -213,7 +213,8 @@ def _require_less_than_sliding(
     """Raise InvalidInputError where the traction exceeds what fully sliding rollers transmit.
 
     They are solved with a creepage of +-1.9, and in "curved" in place of finite strain. At a given
-    approach their load is that of the nip, at a given torque the moment of their pressure.
+    approach their load stands for that of the nip, and at a given torque the moment of their
+    pressure for that of the nip.
     """
     wanted = final.wanted_traction
     assert wanted is not None  # `may_spin`

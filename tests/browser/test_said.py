@@ -137,7 +137,7 @@ def test_too_much_tension_is_told_at_the_tension(designer):
     designer.enter("in-sheet-tension_in", "3")
     alarm = designer.page.inner_text("#alarm").replace("\u202f", " ")
     assert "Sheet, tension at the inlet: " in alarm
-    assert "2 N/mm in size" in alarm
+    assert "must in size stay below 2 N/mm" in alarm
     assert "it is 3 N/mm" in alarm
     assert "Traction" not in alarm
     assert designer.page.get_attribute("#in-sheet-tension_in", "aria-invalid") == "true"

@@ -51,7 +51,7 @@ def test_the_report_counts_the_frictions_of_both_sides(sheet):
     page = designer.page
     page.evaluate("window.print = () => {}")
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    said = "Coulomb friction with one coefficient on either side of the sheet."
+    said = "Coulomb friction with a coefficient for each side of the sheet."
     assert said in page.evaluate("document.getElementById('report').textContent")
 
 

@@ -115,7 +115,7 @@ def test_several_answers_are_all_said():
     answer = found(lambda x: (x - 3.0) ** 2, 1.0, 0.0, 6.0)
     assert answer.value == pytest.approx(2.0, abs=1e-3)
     assert answer.others == (pytest.approx(4.0, abs=1e-3),)
-    assert "So does 4.000" in answer.message
+    assert "4.0000 N/mm gives about 1.0000 mm, too." in answer.message
 
 
 def test_two_answers_between_two_samples_where_the_samples_bend():

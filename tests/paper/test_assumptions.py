@@ -1,10 +1,12 @@
 """How much the missing numbers matter: the changes come out as they must."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
-from rollnip.paper import Effect, effects, effects_table
+import rollnip as rn
+from rollnip.paper import Effect, effects, effects_table, figure_4
 
 
 @pytest.fixture(scope="module")
@@ -54,3 +56,11 @@ def test_what_could_not_be_solved_is_not_a_number():
     effect = Effect("1", "a", "b", "c", "m", 1.0, math.nan)
     assert "nan" in effects_table([effect])
     assert math.isnan(effect.change)
+
+
+@pytest.mark.slow
+def test_the_foil_with_friction_is_solved_at_finite_strain():
+    foil = replace(figure_4(0.1), friction=2.7, tangential=rn.Traction(0.0))
+    solution = rn.solve(foil)
+    assert solution.converged
+    assert solution.model.geometry == "finite"

@@ -2,7 +2,7 @@
 
 import importlib
 from dataclasses import replace
-from math import isnan
+from math import inf, isnan
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +11,7 @@ import pytest
 import rollnip as rn
 from rollnip.paper import configuration
 from rollnip.rolling import claimed_errors
+from rollnip.rolling.mesh_solution import UNKNOWN_ERROR
 from rollnip.verdict import verdict
 
 NIP = rn.Nip(
@@ -233,3 +234,10 @@ def test_the_rolling_resistance_is_as_uncertain_as_the_load_it_is_divided_by():
     assert of_load > 0.0
     wanted = (lost + of_load) / solution.load
     assert solution.error["rolling_resistance"] == pytest.approx(wanted)
+
+
+def test_a_load_of_unknown_error_leaves_an_elastic_nip_without_resistance():
+    """0 times inf is nan, which would say that the figure is not defined."""
+    solution = rn.solve(replace(NIP, normal=rn.Approach(0.2)), rn.Model(geometry="curved"))
+    final = replace(solution.final, error=UNKNOWN_ERROR, make_secondary_error=None)
+    assert replace(solution, final=final).error["rolling_resistance"] == inf

@@ -7,7 +7,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.contact import Layout, State, elements_of_zones
-from rollnip.rolling import zone_search
+from rollnip.rolling import neglected_slip, zone_search
 from rollnip.rolling.neglected_slip import creepage_by_ends, creepage_by_slip, overlooked_states
 from rollnip.rolling.zone_solver import SearchState, crowding_for, solve_with_zones
 
@@ -153,3 +153,17 @@ def test_slip_at_a_trailing_edge_is_as_long_as_tractions_say_and_may_be_left_out
     here, leading = (creepage_by_slip(found, one) for one in (slip, replace(slip, leads=True)))
     share = slip.length / found.figures.nip_width
     assert here == pytest.approx(2.0 / 3.0 * leading * share, rel=1e-12)
+
+
+def test_states_without_a_solution_leave_the_creepage_unknown(monkeypatch):
+    """A singular system ended the whole solve."""
+    final = rn.solve(TURNING, rn.Model(geometry="curved")).final
+    wanted = final.state.states.copy()
+    wanted[wanted.size // 2] = State.SLIP_PLUS
+
+    def singular(*_):
+        raise np.linalg.LinAlgError
+
+    monkeypatch.setattr(neglected_slip, "next_states", lambda *_, **__: wanted.copy())
+    monkeypatch.setattr(neglected_slip, "solve_states", singular)
+    assert overlooked_states(final)[1] == np.inf

@@ -69,7 +69,7 @@ def test_a_sheet_that_may_not_resist_bending_and_has_no_solution_is_told_to(monk
         raise np.linalg.LinAlgError("no size of mesh has a solution")
 
     monkeypatch.setattr(one_geometry, "refine", without_solution)
-    with pytest.raises(rn.ConvergenceError, match="bending freely was found; leave `bending` out"):
+    with pytest.raises(rn.ConvergenceError, match="was found; do without `bending = false`"):
         rn.solve(random_case(0).nip, rn.Model(geometry="curved"))
 
 

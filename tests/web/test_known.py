@@ -1,5 +1,6 @@
 """What is known about a figure: bands of materials, accuracy of the model."""
 
+import re
 import sys
 from copy import deepcopy
 from pathlib import Path
@@ -108,19 +109,35 @@ def test_the_accuracy_is_stated_for_nips_like_those_compared(layers, traction, e
     assert is_judged(rn.solve(nip)) is expected
 
 
-@pytest.mark.parametrize(("geometry", "expected"), [("finite", True), ("curved", False)])
-def test_with_a_sheet_the_accuracy_is_that_of_nips_with_a_sheet(geometry, expected):
-    """Decision 118: only "finite" was compared; figures of bare nips were shown instead."""
+@pytest.mark.parametrize(
+    ("geometry", "below", "expected"),
+    [("finite", 3.0, True), ("curved", 3.0, False), ("finite", None, False)],
+)
+def test_with_a_sheet_the_accuracy_is_that_of_nips_with_a_sheet(geometry, below, expected):
+    """Decision 118: only "finite" was compared, between coverings to these accuracies."""
+    layers = () if below is None else (rn.Layer(below, SOFT),)
     nip = rn.Nip(
         upper=rn.Roller(radius=50.0, layers=(rn.Layer(5.0, SOFT),)),
-        lower=rn.Roller(radius=40.0),
+        lower=rn.Roller(radius=40.0, layers=layers),
         normal=rn.LineLoad(1.5),
         friction=0.8,
         sheet=rn.Sheet(thickness=0.1, modulus=50.0, poisson=0.3, tension_in=0.2, tension_out=0.2),
     )
     solution = rn.solve(nip, rn.Model(geometry=geometry))
     assert is_judged(solution) is expected
-    assert accuracy(solution) == (JUDGED_SHEETS["finite"] if expected else {})
+    assert accuracy(solution) == (JUDGED_SHEETS["finite"] if geometry == "finite" else {})
+
+
+def test_the_accuracies_with_a_sheet_are_those_of_their_decision():
+    """The rows of sheets up to half as thick as their contact is wide, between coverings."""
+    decisions = Path(__file__).parents[2] / "docs" / "decisions"
+    (page,) = decisions.glob("0118-*.md")
+    rows = [line.split("|")[1:-1] for line in page.read_text("utf-8").splitlines()]
+    rows = [row for row in rows if len(row) == 7 and row[1].strip() in ("0.15", "0.47")]
+    assert len(rows) == 2
+    for column, figure in ((2, "approach"), (3, "nip_width"), (4, "peak_pressure")):
+        numbers = [abs(float(n)) for row in rows for n in re.findall(r"-?\d+\.\d+", row[column])]
+        assert JUDGED_SHEETS["finite"][figure] == pytest.approx(0.01 * max(numbers)), figure
 
 
 @pytest.mark.slow

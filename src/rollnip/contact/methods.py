@@ -33,10 +33,10 @@ _VIOLATION = 1e-7
 def solve_nodes(
     problem: ContactProblem, states: States, *, most_steps: int = MOST_ITERATIONS
 ) -> ContactState:
-    """Return the solution from initial ``states``: by an active set or, where that cycles, inside.
+    """Return the solution from initial ``states``: by an active set, or by an interior point.
 
-    ``settled`` tells whether the contact conditions hold at the nodes. ``most_steps``: of the
-    active set.
+    The interior point takes over where the active set does not settle. ``settled`` tells whether
+    the contact conditions hold at the nodes. ``most_steps``: of the active set.
     """
     try:
         solution = active_set(problem, states, most_steps=most_steps)

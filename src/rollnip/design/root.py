@@ -362,7 +362,8 @@ def _sentences(
     said = [f"{question.path} = {question.said(final.x)}{doubt} gives {reached}."]
     if others:
         also = ", ".join(question.said(x) for x in others)
-        said.append(f"So {'does' if len(others) == 1 else 'do'} {also}.")
+        gives = "gives" if len(others) == 1 else "give"
+        said.append(f"{also} {gives} about {question.shown(question.wanted)}, too.")
     if final.row.get("warnings"):
         said.append("The error is that of the computation; the model has reservations there.")
     return said

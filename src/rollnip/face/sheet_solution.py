@@ -133,7 +133,7 @@ def sheet_reservations(solution: SheetFaceSolution) -> tuple[Reservation, ...]:
         out.append(
             Reservation(
                 "pushed_back",
-                "The nip pushes the sheet back at the inlet {places}, by up to {tension}: a thin "
+                "The nip pushes the sheet back at the inlet {places}, with up to {tension}: a thin "
                 "sheet goes slack or wrinkles there.",
                 {
                     "places": places(solution.y, pushed),

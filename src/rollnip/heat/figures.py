@@ -75,7 +75,7 @@ ROLLER_FIGURES: Mapping[str, Figure] = by_key(
         "carried",
         "with the belt or rail",
         "heat per length",
-        "Heat that a plane, a belt or rail, carries away; 0 for a roller, which turns back.",
+        "Heat that a plane (a belt or rail) carries away; 0 for a roller, which comes round again.",
         digits=3,
     ),
     _F(

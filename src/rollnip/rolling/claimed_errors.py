@@ -111,7 +111,7 @@ def secondary_claims(final: MeshSolution, spent: Powers) -> dict[str, float]:
         "torque_lower": _torque(nip.lower, lower, passed_on),
         "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
-        "rolling_resistance": (lost + resistance * first["load"]) / load,
+        "rolling_resistance": (lost + scaled(resistance, first["load"])) / load,
         "peak_pressure_x": errors.peak_pressure_x,
         "mean_pressure": load / length * (shortened + first["load"] / load),
         "dwell_time": first["nip_width"] / speed,
@@ -228,7 +228,12 @@ def _lost(
     error = rates[0] * errors.lost_upper + rates[1] * errors.lost_lower
     if rates == (1.0, 1.0) or isnan(creepage):
         return error
-    return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
+    return error + scaled(0.5 * abs(spent.lost_upper - spent.lost_lower), creepage)
+
+
+def scaled(factor: float, error: float) -> float:
+    """Return an error times a factor: 0 for a factor of 0, even if the error is not known, inf."""
+    return factor * error if factor else 0.0
 
 
 def model_shares(final: MeshSolution) -> dict[str, float]:

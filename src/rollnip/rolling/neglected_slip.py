@@ -10,7 +10,7 @@ that this is in proportion to (a/h)^2, over the slope of the gap at the edge, a/
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
@@ -96,7 +96,7 @@ def overlooked_states(latest: MeshSolution) -> tuple[States, float]:
     The change is found by solving with these states on the same mesh. Nodes next to the ends of
     zones keep their state, as the ends may be misplaced, and so do those that slip left out covers,
     whose effect is known otherwise. Nothing changes where there is no friction, or the creepage is
-    prescribed.
+    prescribed. The change is inf where the system with these states is singular.
     """
     problem, state = latest.problem, latest.state
     if problem.friction == 0.0 or problem.control.creepage is not None:
@@ -110,4 +110,7 @@ def overlooked_states(latest: MeshSolution) -> tuple[States, float]:
     wanted[state.states == State.FREE] = State.FREE
     if np.array_equal(wanted, state.states):
         return wanted, 0.0
-    return wanted, abs(solve_states(problem, wanted).creepage - state.creepage)
+    try:
+        return wanted, abs(solve_states(problem, wanted).creepage - state.creepage)
+    except np.linalg.LinAlgError:
+        return wanted, inf

@@ -89,8 +89,8 @@ def _ends_agree(search: EndSearch, aim: Aim) -> bool:
 
     That is enough while the correction still changes. A transition that is misplaced by more has
     shears beyond the bound beside it, and the correction of such shears would move it again. The
-    solution must call for no other zones. Beside a boundary layer or a short
-    zone that is not exact enough for the last contact: there pressure and shear must be right.
+    solution must call for no other zones. Beside a boundary layer or a short zone that is not exact
+    enough for the last contact: there pressure and shear must be right.
     """
     proposed, latest = search.proposed, search.latest
     distance = proposed.distance(search.layout, transitions_count=1.0)

@@ -76,7 +76,7 @@ def pressed_gap(gap: Array, pressure: Array) -> float:
 
 
 def over_load(force: float, load: float) -> float:
-    """Return a force over the load; 0 without pressure, which the contact conditions tell."""
+    """Return a force over the load; 0 where nothing is pressed: the residual shows that."""
     return 0.0 if load <= 0.0 else force / load
 
 

@@ -18,7 +18,7 @@ from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, MeshSolution, Powers, claims
-from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
+from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left, scaled
 from rollnip.rolling.kinematics import stretch_excess, surface_depths
 from rollnip.rolling.power_balance import rates_of
 from rollnip.sheet.bending import bending_length
@@ -99,7 +99,7 @@ class SheetSolution(SmoothSolution):
         nip, out, mine = self.nip, claims(self.final), self._errors
         speed = nan if nip.speed is None else nip.speed
         load, length = self.load, self.nip_width
-        lost = mine["lost_upper"] + mine["lost_lower"]
+        lost, resistance = mine["lost_upper"] + mine["lost_lower"], self.rolling_resistance
         out |= {name: largest(out[name], mine[name]) for name in not_prescribed(nip)}
         for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
             off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
@@ -111,7 +111,7 @@ class SheetSolution(SmoothSolution):
             "traction": traction,
             "dissipation_friction": speed * (mine["friction_upper"] + mine["friction_lower"]),
             "dissipation_viscous": speed * lost,
-            "rolling_resistance": (lost + self.rolling_resistance * out["load"]) / load,
+            "rolling_resistance": (lost + scaled(resistance, out["load"])) / load,
             "peak_pressure_x": mine["peak_pressure_x"],
             "mean_pressure": load / length * (out["nip_width"] / length + out["load"] / load),
             "dwell_time": out["nip_width"] / speed,

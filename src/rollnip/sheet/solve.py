@@ -138,8 +138,8 @@ def _none_found(nip: Nip) -> str:
     otherwise = "No solution with this sheet was found; try a larger load or other tensions."
     if nip.sheet.bending is False:
         otherwise = (
-            "No solution with this sheet bending freely was found; leave `bending` out, or "
-            "try a larger load or other tensions."
+            "No solution with this sheet bending freely was found; do without `bending = false`, "
+            "or try a larger load or other tensions."
         )
     return none_found(nip, otherwise)
 

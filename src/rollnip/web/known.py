@@ -30,7 +30,8 @@ JUDGED: Mapping[Geometry, Mapping[str, float]] = {
 JUDGED_SHEETS: Mapping[Geometry, Mapping[str, float]] = {
     "finite": {"nip_width": 0.004, "approach": 0.001, "peak_pressure": 0.008},
 }
-"""The same with a sheet of up to half the width of its narrower contact (decision 118).
+"""The same with a sheet of up to half the width of its narrower contact, between two coverings
+(decision 118).
 
 Figures of the upper side. Thicker sheets are warned of; other geometries were not compared.
 """
@@ -61,6 +62,8 @@ def is_judged(solution: Solution) -> bool:
     if not accuracy(solution):
         return False
     rollers = (solution.nip.upper, solution.nip.lower)
+    if solution.nip.sheet is not None and any(one.is_rigid for one in rollers):
+        return False  # the lower width and peak on steel are further off
     gentle = abs(solution.traction) <= _GENTLE * solution.load
     return gentle and not solution.warnings and not any(_has_stiff_skin(one) for one in rollers)
 

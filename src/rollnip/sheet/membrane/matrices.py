@@ -173,12 +173,12 @@ def _add_bands(upper: Array, lower: Array, value: float) -> None:
 
 def _add_hoops(mesh: Mesh, out: Array) -> None:
     """Add the hoop stretch -int u_z/R dx of both surfaces to the creeps in ``out``."""
-    whole = mesh.fine.integrated
+    integrated = mesh.fine.integrated
     _, zz_u, xz_u, _, zz_l, xz_l = mesh.per_traction
     hoop_u, hoop_l = mesh.kernels.hoops
     if hoop_u:
-        out[1, :, 0] -= hoop_u * whole(zz_u)
-        out[1, :, 1] += hoop_u * whole(xz_u)
+        out[1, :, 0] -= hoop_u * integrated(zz_u)
+        out[1, :, 1] += hoop_u * integrated(xz_u)
     if hoop_l:
-        out[2, :, 0] += hoop_l * whole(zz_l)
-        out[2, :, 2] += hoop_l * whole(xz_l)
+        out[2, :, 0] += hoop_l * integrated(zz_l)
+        out[2, :, 2] += hoop_l * integrated(xz_l)

@@ -398,7 +398,7 @@ export const DE = {
   "csv.unit": "Einheit",
   "csv.converged": "konvergiert",
   "csv.curve": "Kurve",
-  "find.others": " Ebenso {others}.",
+  "find.others": " Etwa dasselbe ergibt {others}.",
   "find.and": " und ",
   "find.found": "ergibt {answer} {value}.",
   "find.flat": "{input}: ohne Einfluss; von {from} bis {to} ist {answer} {low}.",

@@ -398,7 +398,7 @@ export const EN = {
   "csv.unit": "unit",
   "csv.converged": "converged",
   "csv.curve": "curve",
-  "find.others": " So does {others}.",
+  "find.others": " About the same comes from {others}.",
   "find.and": ", and ",
   "find.found": "gives {answer} {value}.",
   "find.flat": "{input}: has no influence; from {from} to {to} the {answer} is {low}.",

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.influence import load_weights
 from rollnip.rolling.mesh_solution import (
     Figures,
     peak_pressure,
@@ -79,7 +80,7 @@ def test_figures_are_those_of_the_solution(case, solved):
     assert figures.nip_width == pytest.approx(
         solution.contact[-1][1] - solution.contact[0][0], rel=1e-14
     )
-    load = solution.final.weights @ solution.pressure
+    load = load_weights(solution.final.nodes) @ solution.pressure
     assert figures.load == pytest.approx(load, rel=1e-12)
     cubic = solution.final.mesh.between(solution.final.state.pressure)
     peak, top = figures.peak_pressure, int(np.argmax(cubic))

@@ -88,22 +88,20 @@ def refine_all_orders(
     The solution with the last correction, which its contact holds. Where the iteration does not
     converge, that solution is not ``settled``, and ``failure`` says how far it got.
     """
-    start = half_width, cache, near
-    found = _refine_to_iteration_tolerance(with_iteration_tolerance(contact), start, is_too_deep)
+    finer = with_iteration_tolerance(contact)
+    found = _refine_to_tolerance(finer, half_width, cache, is_too_deep, near)
     return replace(found, contact=found.contact.with_model(contact.model))
 
 
-def _refine_to_iteration_tolerance(
+def _refine_to_tolerance(
     contact: RollingContact,
-    start: tuple[float, KernelCache, MeshSolution | None],
+    half_width: float,
+    cache: KernelCache,
     is_too_deep: IsTooDeep,
+    near: MeshSolution | None,
 ) -> MeshSolution:
-    """Solve as `refine_all_orders` does, to the tolerance of this contact.
-
-    ``start``: first guess of the half-width [mm], influence functions of earlier solves, and the
-    solution of a similar nip.
-    """
-    nip, (half_width, cache, near) = contact.nip, start
+    """Solve as `refine_all_orders` does, to the tolerance of the contact as it is."""
+    nip = contact.nip
     if grips_skin(nip):
         contact = contact.holding(replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
     second = partial(with_second_order, contact, half_width, cache)

@@ -105,12 +105,8 @@ def _ends_agree(search: EndSearch, aim: Aim) -> bool:
 
 def _is_placed(search: EndSearch, aim: Aim) -> bool:
     """Return whether the ends on a mesh are placed, and nothing in its solution denies it."""
-    contact, layout, latest, is_last = (
-        search.contact,
-        search.layout,
-        search.latest,
-        aim is Aim.FIGURES,
-    )
+    contact, layout, latest = search.contact, search.layout, search.latest
+    is_last = aim is Aim.FIGURES
     return (
         _are_ends_near(search, aim)
         and (search.proposed.is_proper and latest.settled and search.state.second_order_settled)

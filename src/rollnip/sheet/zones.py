@@ -8,6 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import Layout
 
 Array = NDArray[np.float64]
@@ -70,6 +71,18 @@ class SideZones:
         """Return whether the other zones have the same states in the same order."""
         pairs = zip(self.sides, other.sides, strict=True)
         return all(np.array_equal(one.states, two.states) for one, two in pairs)
+
+    def distance(self, other: Self) -> float:
+        """Return the largest distance between the ends of like zones, over their widths.
+
+        Figures depend on transitions only to second order: ten times their squared distance counts.
+        """
+        parts = []
+        for one, two in zip(self.sides, other.sides, strict=True):
+            off = np.abs(one.breaks - two.breaks) / two.width
+            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
+            parts.append(float(off.max()))
+        return largest(*parts)
 
 
 def within_zone_middles(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:

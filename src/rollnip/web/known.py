@@ -3,10 +3,9 @@
 The model: how far the figures of a geometry were from finite elements at finite strain, on nips of
 the kind that was compared (docs/geometry.md): coverings without a stiff skin, rolling freely or
 driven with up to a tenth of the load, and no warning (docs/validity.md); with a sheet, on those of
-decision 118. The material: Young's
-moduli known only within a band are put to their soft ends all together, and to their stiff ends;
-nip width, approach and pressures of an elastic nip lie between, as they go one way with every
-modulus.
+decision 118. The material: Young's moduli known only within a band are put to their soft ends all
+together, and to their stiff ends; nip width, approach and pressures of an elastic nip lie between,
+as they go one way with every modulus.
 """
 
 from __future__ import annotations

@@ -9,12 +9,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._largest import largest
 from rollnip.contact import Layout, States, contact_zones
 from rollnip.sheet.membrane.system import MembraneProblem, MembraneState
 from rollnip.sheet.zones import (
     LONGEST_MOVE,
-    OF_TRANSITIONS,
     SideZones,
     within_zone_middles,
     without_slivers_in,
@@ -60,18 +58,6 @@ class MembraneZones(SideZones):
         """Return the zone ends of both interfaces merged, each once, (m,) [mm]."""
         places = {place for side in self.sides for place in side.breaks.tolist()}
         return np.array(sorted(places))
-
-    def distance(self, other: MembraneZones) -> float:
-        """Return the largest distance between the ends of like zones, over the width.
-
-        Figures depend on transitions only to second order: ten times their squared distance counts.
-        """
-        parts = []
-        for one, two in zip(self.sides, other.sides, strict=True):
-            off = np.abs(one.breaks - two.breaks) / other.width
-            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
-            parts.append(float(off.max()))
-        return largest(*parts)
 
     def states_on(self, x: Array) -> States:
         """Return the states of the nodes on both interfaces, (2, n)."""

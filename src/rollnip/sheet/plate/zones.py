@@ -13,7 +13,6 @@ from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.zones import (
     LONGEST_MOVE,
-    OF_TRANSITIONS,
     SideZones,
     within_zone_middles,
     without_slivers_in,
@@ -71,19 +70,6 @@ class PlateZones(SideZones):
                 if first < x < last and float(np.abs(breaks - x).min()) > 0.5 * thickness:
                     breaks = np.append(breaks, x)
         return np.sort(breaks)
-
-    def distance(self, other: PlateZones) -> float:
-        """Return the largest distance between the ends of like zones, over their widths.
-
-        The distance of transitions counts squared, because figures depend on them only to second
-        order.
-        """
-        parts = []
-        for one, two in zip(self.sides, other.sides, strict=True):
-            off = np.abs(one.breaks - two.breaks) / two.width
-            off[1:-1] *= OF_TRANSITIONS * off[1:-1]
-            parts.append(float(off.max()))
-        return largest(*parts)
 
     def edges_off(self, other: PlateZones) -> float:
         """Return the largest distance between the edges of both, over the widths of these zones."""
